@@ -1,0 +1,254 @@
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "plot.hpp"
+
+// Where index.html, page.css and page.js lie; the build sets it.
+#ifndef PENUMBRA_STUDY_PAGE
+#define PENUMBRA_STUDY_PAGE "examples/study/page"
+#endif
+
+namespace penumbra::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void write_file(const fs::path& file, const std::string& text) {
+    if (!(std::ofstream(file, std::ios::binary) << text))
+        throw std::runtime_error(fmt::format("cannot write '{}'", file.string()));
+}
+
+std::string read_file(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(fmt::format("cannot read '{}'", file.string()));
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+Json positive(double x) { return x > 0.0 ? Json(x) : Json(nullptr); }
+
+Json bound_name(Bound bound) {
+    return bound == Bound::none ? Json(nullptr) : Json(bound == Bound::lower ? "lower" : "upper");
+}
+
+Json row_json(const Row& row) {
+    return {{"scene", row.scene},
+            {"triangles", row.triangles},
+            {"light", row.light},
+            {"method", row.method},
+            {"knobs", row.knobs},
+            {"points", row.points},
+            {"rmse", row.rmse},
+            {"max_error", row.max_error},
+            {"bias", row.bias},
+            {"build_ms", row.build_ms},
+            {"ns_per_point", row.ns_per_point},
+            {"bytes", row.bytes},
+            {"ray_ns_at_equal_rmse", positive(row.ray_ns_at_equal_rmse)},
+            {"speedup", positive(row.speedup)},
+            {"ray_ns_bound", bound_name(row.ray_ns_bound)},
+            {"ray_ns_limit", positive(row.ray_ns_limit)},
+            {"rays_at_equal_rmse", positive(row.rays_at_equal_rmse)},
+            {"rays_limit", positive(row.rays_limit)},
+            {"ray_sampler", row.ray_sampler},
+            {"default", row.is_default}};
+}
+
+std::string csv_field(const Json& value) {
+    if (value.is_null()) return "";
+    std::string text;
+    if (value.is_object()) {
+        for (const auto& knob : value.items())
+            text += (text.empty() ? "" : ";") + knob.key() + "=" +
+                    (knob.value().is_string() ? knob.value().get<std::string>() : knob.value().dump());
+    } else {
+        text = value.is_string() ? value.get<std::string>() : value.dump();
+    }
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+/// The first of the places where a system keeps Chart.js for browsers; empty if there is none.
+fs::path find_chart() {
+    for (const char* file :
+         {"/usr/share/javascript/chart.js/chart.min.js", "/usr/share/javascript/chart.js/chart.umd.js",
+          "/usr/share/nodejs/chart.js/dist/chart.min.js"})
+        if (fs::exists(file)) return file;
+    return {};
+}
+
+void replace(std::string& text, const std::string& what, const std::string& with) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
+        text.replace(at, what.size(), with);
+}
+
+void write_page(const fs::path& folder, const Json& study, bool with_chart) {
+    const fs::path source = PENUMBRA_STUDY_PAGE;
+    for (const char* part : {"page.css", "page.js"}) write_file(folder / part, read_file(source / part));
+    std::string page = read_file(source / "index.html"), data = study.dump();
+    replace(data, "</", "<\\/");  // or it could end the element that holds it
+    replace(data, "<!--", "<\\u0021--");
+    replace(page, "<!--{chart}-->", with_chart ? "<script src=\"chart.min.js\"></script>" : "");
+    replace(page, "{study}", data);
+    write_file(folder / "index.html", page);
+}
+
+/// Three significant digits or all before the point, no exponent.
+std::string digits(double x) {
+    const int decimals = x >= 100.0 ? 0 : x >= 10.0 ? 1 : 2;
+    const bool whole = x < 1e9 && x == static_cast<double>(static_cast<long>(x));
+    return fmt::format("{:.{}f}", x, whole ? 0 : decimals);
+}
+
+/// "87", or "> 40" where only a limit is known.
+std::string bounded(Bound bound, double known, double limit, const char* unit) {
+    if (bound == Bound::none) return known > 0.0 ? digits(known) + unit : "–";
+    return (bound == Bound::lower ? "> " : "< ") + digits(limit) + unit;
+}
+
+using Cells = std::array<std::string, 7>;
+
+Cells cells(const Study& study, const Row& row) {
+    return {row.scene,
+            row.method,
+            varying_knobs_text(study, row) + (row.is_default ? "  (default)" : ""),
+            fmt::format("{:.4f}", row.rmse),
+            digits(row.ns_per_point),
+            bounded(row.ray_ns_bound, row.rays_at_equal_rmse, row.rays_limit, ""),
+            bounded(row.ray_ns_bound, row.speedup, row.ray_ns_limit / row.ns_per_point, "×")};
+}
+
+std::size_t columns(const std::string& utf8) {
+    return static_cast<std::size_t>(std::count_if(
+        utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+void print_line(std::FILE* out, const char* mark, const Cells& line, const std::array<std::size_t, 7>& widths) {
+    std::string text = mark;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const std::string pad(widths[i] - columns(line[i]), ' ');
+        text += "  " + (i < 3 ? line[i] + pad : pad + line[i]);
+    }
+    fmt::print(out, "{}\n", text);
+}
+
+}  // namespace
+
+Json to_json(const Study& study) {
+    Json json = {{"study",
+                  {{"command", study.command},
+                   {"date", study.date},
+                   {"machine", study.machine},
+                   {"compiler", study.compiler},
+                   {"flags", study.flags},
+                   {"truth_rays", study.truth_rays}}},
+                 {"scenes", Json::array()},
+                 {"rows", Json::array()},
+                 {"rays", Json::array()},
+                 {"pictures", Json::array()}};
+    for (const SceneInfo& scene : study.scenes)
+        json["scenes"].push_back({{"name", scene.name},
+                                  {"about", scene.about},
+                                  {"triangles", scene.triangles},
+                                  {"light", scene.light},
+                                  {"points", scene.points},
+                                  {"truth_noise", scene.truth_noise},
+                                  {"plot", "plot-" + file_name(scene.name) + ".svg"}});
+    for (const Row& row : study.rows) json["rows"].push_back(row_json(row));
+    for (const RayRow& row : study.ray_rows)
+        json["rays"].push_back({{"scene", row.scene},
+                                {"sampler", row.sampler},
+                                {"packet", row.packet},
+                                {"rays", row.rays},
+                                {"rmse", row.rmse},
+                                {"ns_per_point", row.ns_per_point}});
+    for (const Picture& picture : study.pictures)
+        json["pictures"].push_back({{"scene", picture.scene},
+                                    {"title", picture.title},
+                                    {"method", picture.method_png},
+                                    {"truth", picture.truth_png},
+                                    {"difference", picture.difference_png},
+                                    {"rmse", picture.rmse}});
+    return json;
+}
+
+std::string to_csv(const Study& study) {
+    std::string text;
+    const Json names = row_json(Row());
+    for (const auto& field : names.items()) text += (text.empty() ? "" : ",") + field.key();
+    for (const Row& row : study.rows) {
+        const Json json = row_json(row);
+        const char* before = "\n";
+        for (const auto& field : json.items()) {
+            text += before + csv_field(field.value());
+            before = ",";
+        }
+    }
+    return text + "\n";
+}
+
+std::vector<std::string> write_study(const Study& study, const fs::path& folder) {
+    std::vector<std::string> notes;
+    fs::create_directories(folder);
+    const Json json = to_json(study);
+    write_file(folder / "study.json", json.dump(1) + "\n");
+    write_file(folder / "study.csv", to_csv(study));
+    bool plots = true;
+    for (const SceneInfo& scene : study.scenes) plots = write_plot(study, scene.name, folder) && plots;
+    if (!plots) notes.emplace_back("No plot-*.svg: gnuplot (package gnuplot-nox) is missing or failed.");
+    const fs::path chart = find_chart();
+    if (chart.empty())
+        notes.emplace_back("No interactive plots in index.html: Chart.js (package libjs-chart.js) is missing.");
+    else
+        fs::copy_file(chart, folder / "chart.min.js", fs::copy_options::overwrite_existing);
+    write_page(folder, json, !chart.empty());
+    return notes;
+}
+
+void print_table(const Study& study, std::FILE* out) {
+    const Cells head = {"scene", "method", "knobs", "RMSE", "ns/point", "rays at equal RMSE", "speedup"};
+    std::vector<std::pair<const char*, Cells>> lines;  // a mark and a row; empty between scenes
+    for (const SceneInfo& scene : study.scenes) {
+        const Row* best = best_row(study, scene.name);
+        std::vector<const Row*> rows = pareto_front(study, scene.name);
+        std::reverse(rows.begin(), rows.end());
+        const auto coarse = [&](const Row* row) { return row != best && row->ray_ns_bound == Bound::upper; };
+        rows.erase(std::remove_if(rows.begin(), rows.end(), coarse), rows.end());
+        for (const Row& row : study.rows)
+            if (row.is_default && row.scene == scene.name && std::find(rows.begin(), rows.end(), &row) == rows.end())
+                rows.push_back(&row);
+        lines.emplace_back("", Cells());
+        for (const Row* row : rows) lines.emplace_back(row == best ? "★" : " ", cells(study, *row));
+    }
+    std::array<std::size_t, 7> widths{};
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+        widths[i] = columns(head[i]);
+        for (const auto& line : lines) widths[i] = std::max(widths[i], columns(line.second[i]));
+    }
+    print_line(out, " ", head, widths);
+    for (const auto& [mark, line] : lines) {
+        if (line[0].empty())
+            fmt::print(out, "\n");
+        else
+            print_line(out, mark, line, widths);
+    }
+    fmt::print(
+        out,
+        "\n★ smallest RMSE. Below it, settings that no other beats in RMSE and time both, as long as the fewest\n"
+        "rays are not more accurate still, and the default. All {} settings are in study.csv.\n",
+        study.rows.size());
+}
+
+}  // namespace penumbra::study

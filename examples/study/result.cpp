@@ -1,0 +1,77 @@
+#include "result.hpp"
+
+#include <algorithm>
+
+namespace penumbra::study {
+namespace {
+
+bool varies(const Study& study, const Row& row, const std::string& knob) {
+    return std::any_of(study.rows.begin(), study.rows.end(), [&](const Row& other) {
+        return other.scene == row.scene && other.method == row.method && other.knobs.contains(knob) &&
+               other.knobs[knob] != row.knobs[knob];
+    });
+}
+
+template <class Wanted>
+std::string text_of(const Row& row, Wanted&& wanted) {
+    std::string text;
+    for (const auto& knob : row.knobs.items()) {
+        const auto& value = knob.value();
+        if (!wanted(knob.key()) || value == false) continue;
+        const std::string word = value == true       ? knob.key()
+                                 : value.is_string() ? value.get<std::string>()
+                                                     : knob.key() + " " + value.dump();
+        text += (text.empty() ? "" : ", ") + word;
+    }
+    return text;
+}
+
+}  // namespace
+
+void compare_with_rays(Study& study) {
+    for (Row& row : study.rows) {
+        const RayCost cost = ray_cost(study.ray_rows, row.scene, row.rmse);
+        const bool known = cost.ns > 0.0 && cost.bound == Bound::none;
+        row.ray_ns_bound = cost.bound;
+        row.ray_sampler = cost.sampler;
+        row.ray_ns_limit = known ? -1.0 : cost.ns;
+        row.rays_limit = known ? -1.0 : cost.rays;
+        row.ray_ns_at_equal_rmse = known ? cost.ns : -1.0;
+        row.rays_at_equal_rmse = known ? cost.rays : -1.0;
+        row.speedup = known && row.ns_per_point > 0.0 ? cost.ns / row.ns_per_point : -1.0;
+    }
+}
+
+std::vector<const Row*> pareto_front(const Study& study, const std::string& scene) {
+    std::vector<const Row*> rows, front;
+    for (const Row& row : study.rows)
+        if (row.scene == scene) rows.push_back(&row);
+    std::stable_sort(rows.begin(), rows.end(), [](const Row* a, const Row* b) {
+        return a->ns_per_point != b->ns_per_point ? a->ns_per_point < b->ns_per_point : a->rmse < b->rmse;
+    });
+    for (const Row* row : rows)
+        if (front.empty() || row->rmse < front.back()->rmse) front.push_back(row);
+    return front;
+}
+
+const Row* best_row(const Study& study, const std::string& scene) {
+    const std::vector<const Row*> front = pareto_front(study, scene);
+    return front.empty() ? nullptr : front.back();
+}
+
+std::string knob_text(const Row& row, const std::string& knob, const std::string& fallback) {
+    if (!row.knobs.contains(knob)) return fallback;
+    const nlohmann::ordered_json& value = row.knobs[knob];
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string knobs_text(const Row& row) {
+    return text_of(row, [](const std::string&) { return true; });
+}
+
+std::string varying_knobs_text(const Study& study, const Row& row) {
+    return text_of(row, [&](const std::string& knob) { return varies(study, row, knob); });
+}
+
+}  // namespace penumbra::study

@@ -1,0 +1,41 @@
+// What the study looks at: casters, a receiver, a light that fits them, and a camera.
+#pragma once
+
+#include <cstddef>
+#include <penumbra/light.hpp>
+#include <penumbra/mesh.hpp>
+#include <string>
+#include <vector>
+
+namespace penumbra::study {
+
+/// A pinhole camera; `width_tan` is the tangent of half the horizontal field of view.
+struct Camera {
+    Vec3<float> eye, target;
+    float width_tan = 0.4F;
+};
+
+/// World space, y up, the ground at y = 0. The ground receives but does not cast.
+struct Scene {
+    std::string name;
+    std::string about;  ///< one sentence for the report
+    std::vector<Mesh<float>> casters;
+    Mesh<float> ground;
+    RectLight<float> light;
+    Camera camera;
+
+    std::size_t triangle_count() const;
+    std::string light_text() const;  ///< "rectangle 4 × 4, 9 above the ground"
+};
+
+/// The built-in scenes, in the order of the report: spheres, foliage, sheet, slab, boxes, bunny.
+std::vector<std::string> scene_names();
+
+/// A built-in scene by name, its light's sides multiplied by `light_size`. Throws std::runtime_error with a
+/// message for the user if there is none of that name or if the bunny's package is missing.
+Scene make_scene(const std::string& name, float light_size);
+
+/// Any mesh file that assimp reads, scaled and stood on the ground under a light that fits it.
+Scene load_scene(const std::string& file, float light_size);
+
+}  // namespace penumbra::study

@@ -1,0 +1,52 @@
+// Every public template for float and double, so that each variant compiles bodies and not only declarations.
+#include <penumbra/penumbra.hpp>
+
+#define INSTANTIATE(T)                                                                                           \
+    template T saturate(T);                                                                                      \
+    template T saturated_ratio(T, T);                                                                            \
+    template T safe_ratio(T, T, T);                                                                              \
+    template T mix(T, T, T);                                                                                     \
+    template T exp2_int(int);                                                                                    \
+    template Vec3<T> normalize_or(const Vec3<T>&, const Vec3<T>&);                                               \
+    template T safe_length(const Vec3<T>&);                                                                      \
+    template Vec3<T> any_perpendicular(const Vec3<T>&);                                                          \
+    template T area(const Rect2<T>&);                                                                            \
+    template Rect2<T> intersect(const Rect2<T>&, const Rect2<T>&);                                               \
+    template T signed_distance(const Plane<T>&, const Vec3<T>&);                                                 \
+    template struct LightFrame<T>;                                                                               \
+    template LightFrame<T> light_frame(const RectLight<T>&, const Vec3<T>&);                                     \
+    template LightFrame<T> light_frame(const DiskLight<T>&);                                                     \
+    template LightFrame<T> light_frame(const LinearLight<T>&, const Vec3<T>&);                                   \
+    template bool validate(const RectLight<T>&);                                                                 \
+    template bool validate(const DiskLight<T>&);                                                                 \
+    template bool validate(const LinearLight<T>&);                                                               \
+    template bool validate(const Mesh<T>&, const std::string&);                                                  \
+    template Box3<T> bounds(const std::vector<Mesh<T>>&);                                                        \
+    template EdgeAdjacency edge_adjacency(const Mesh<T>&);                                                       \
+    template class Image<T>;                                                                                     \
+    template T bilinear(const Image<std::uint8_t>&, T, T);                                                       \
+    template void rasterize(const RasterVertex<T>&, const RasterVertex<T>&, const RasterVertex<T>&, int, int, T, \
+                            void (&)(int, int, T));                                                              \
+    template T combine_product(T, T);                                                                            \
+    template T combine_mean(T, T);                                                                               \
+    template T combine(const T*, std::size_t, Combination);                                                      \
+    template OcclusionBounds<T> occlusion_bounds(const T*, std::size_t);                                         \
+    template T kernel_scale(T, T);                                                                               \
+    template T kernel_size(T, T, T);                                                                             \
+    template Rect2<T> kernel_rect(T, const Vec3<T>&, const Rect2<T>&);                                           \
+    template class MipMap<T>;                                                                                    \
+    template class NBuffer<T>;                                                                                   \
+    template class OcclusionTextureShadow<T>;
+
+namespace penumbra {
+
+INSTANTIATE(float)
+INSTANTIATE(double)
+template class Image<std::uint8_t>;
+template class MipMap<std::uint8_t>;
+template class NBuffer<std::uint8_t>;
+template class NBuffer<SliceTexel>;
+template class SummedArea<std::uint32_t>;
+template class SummedArea<std::uint64_t>;
+
+}  // namespace penumbra

@@ -1,0 +1,45 @@
+// Whole queries as C++, with the options that are defined at the moment; may be included again and again, each time in
+// another namespace below glsl. Forgets options and include guards, so that the next one starts afresh.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // some options leave a parameter unused
+#include "../../shaders/penumbra/light.glsl"
+#include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
+#pragma GCC diagnostic pop
+
+/// What was compiled.
+struct Query {
+    using Slices = PENUMBRA_SLICE_SAMPLER;
+    using Info = penumbra_OcclusionTexture;
+    static constexpr int filter = PENUMBRA_OCCLUSION_TEXTURE_FILTER;
+    static constexpr int combination = PENUMBRA_OCCLUSION_TEXTURE_COMBINATION;
+    static constexpr int channels = PENUMBRA_OCCLUSION_TEXTURE_CHANNELS;
+    static constexpr int cells = PENUMBRA_OCCLUSION_TEXTURE_CELLS;
+    static constexpr int plane = PENUMBRA_OCCLUSION_TEXTURE_PLANE;
+    static constexpr int self_shadow = PENUMBRA_OCCLUSION_TEXTURE_SELF_SHADOW;
+    static constexpr float bias = PENUMBRA_OCCLUSION_TEXTURE_BIAS;
+
+    static float visibility(Slices masks, Slices depths, const Info& info, vec3 point_ls) {
+        return penumbra_visibility(masks, depths, info, point_ls);
+    }
+};
+
+#undef PENUMBRA_BOXES_GLSL
+#undef PENUMBRA_COMBINE_GLSL
+#undef PENUMBRA_GEOMETRY_GLSL
+#undef PENUMBRA_KERNEL_GLSL
+#undef PENUMBRA_LIGHT_GLSL
+#undef PENUMBRA_MIPMAP_GLSL
+#undef PENUMBRA_NUMERIC_GLSL
+#undef PENUMBRA_N_BUFFER_GLSL
+#undef PENUMBRA_OCCLUSION_TEXTURE_SHADOW_GLSL
+#undef PENUMBRA_SLICES_GLSL
+#undef PENUMBRA_SLICE_CAMERA_GLSL
+#undef PENUMBRA_SUMMED_AREA_GLSL
+#undef PENUMBRA_OCCLUSION_TEXTURE_BIAS
+#undef PENUMBRA_OCCLUSION_TEXTURE_CELLS
+#undef PENUMBRA_OCCLUSION_TEXTURE_CHANNELS
+#undef PENUMBRA_OCCLUSION_TEXTURE_COMBINATION
+#undef PENUMBRA_OCCLUSION_TEXTURE_FILTER
+#undef PENUMBRA_OCCLUSION_TEXTURE_PLANE
+#undef PENUMBRA_OCCLUSION_TEXTURE_SELF_SHADOW
+#undef PENUMBRA_SLICE_SAMPLER

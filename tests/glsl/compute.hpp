@@ -1,0 +1,65 @@
+// Runs a few lines of GLSL on arrays of numbers.
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace penumbra::test {
+
+/// `body` reads the numbers I(0) … I(inputs − 1) of its tuple, and writes O(0) … O(outputs − 1).
+struct Compute {
+    std::string snippet;  ///< below shaders/penumbra
+    int inputs, outputs;
+    Program::Options options;
+    std::string uniforms, body;
+
+    std::vector<float> run(
+        const Context& context, const std::vector<float>& in,
+        const std::function<void(const Program&)>& set_uniforms = [](const Program&) {}) const {
+        const std::size_t tuples = in.size() / static_cast<std::size_t>(inputs);
+        const Program program(context, Text{text()});
+        std::vector<float> out(tuples * static_cast<std::size_t>(outputs));
+        const auto bytes = static_cast<GLsizeiptr>(out.size() * sizeof(float));
+        GLuint buffers[2];
+        glGenBuffers(2, buffers);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffers[0]);
+        glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(in.size() * sizeof(float)), in.data(),
+                     GL_STATIC_DRAW);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffers[1]);
+        glBufferData(GL_SHADER_STORAGE_BUFFER, bytes, nullptr, GL_STATIC_READ);
+        program.use();
+        set_uniforms(program);
+        program.set("penumbra_tuples", static_cast<int>(tuples));
+        glDispatchCompute(static_cast<GLuint>((tuples + 63) / 64), 1, 1);
+        glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        const void* result = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, bytes, GL_MAP_READ_BIT);
+        const GLenum error = glGetError();
+        if (result == nullptr || error != GL_NO_ERROR)
+            throw std::runtime_error("OpenGL error " + std::to_string(error));
+        std::memcpy(out.data(), result, static_cast<std::size_t>(bytes));
+        glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+        glDeleteBuffers(2, buffers);
+        return out;
+    }
+
+  private:
+    std::string text() const {
+        std::string all;
+        for (const std::string& option : options) all += "#define " + option + "\n";
+        return all + "layout(local_size_x = 64) in;\nuniform int penumbra_tuples;\n" + uniforms +
+               "layout(std430, binding = 0) readonly buffer In { float penumbra_in[]; };\n"
+               "layout(std430, binding = 1) writeonly buffer Out { float penumbra_out[]; };\n"
+               "#define I(k) penumbra_in[penumbra_tuple * " +
+               std::to_string(inputs) + " + (k)]\n#define O(k) penumbra_out[penumbra_tuple * " +
+               std::to_string(outputs) + " + (k)]\n" + flatten(snippet) +
+               "void main() {\n    int penumbra_tuple = int(gl_GlobalInvocationID.x);\n"
+               "    if (penumbra_tuple >= penumbra_tuples) return;\n    " +
+               body + "\n}\n";
+    }
+};
+
+}  // namespace penumbra::test

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# All tests; see usage below.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+usage() {
+    cat <<'END'
+Usage: tests/run.sh [--quick] [--no-install] [ctest's options]
+
+Installs what the tests need (Debian, Ubuntu), builds them below build/tests and runs them:
+  g++/        C++17, every variant of compilation, the installed package
+  clang++/    C++20, every variant of compilation
+  fast-math/  -ffast-math
+  sanitize/   address and undefined-behaviour sanitizers
+
+  --quick       g++/ only
+  --no-install  take the packages as they are
+  --help        this text
+Further options go to ctest: `tests/run.sh -R n_buffer`.
+END
+}
+
+quick=false
+ctest_options=()
+for argument in "$@"; do
+    case $argument in
+        --help | -h) usage; exit 0 ;;
+        --quick) quick=true ;;
+        --no-install) export PENUMBRA_NO_INSTALL=1 ;;
+        *) ctest_options+=("$argument") ;;
+    esac
+done
+
+source "$root/.ci/setup.sh"
+require_packages g++ clang cmake ninja-build libglm-dev doctest-dev libembree-dev libepoxy-dev libegl-dev \
+    libgl1-mesa-dri glslang-tools spirv-tools spirv-cross
+
+build=$root/build/tests
+suites=()
+suite() {  # name, CMake options...
+    local name=$1
+    suites+=("$name")
+    echo "== Building $name"
+    cmake -S "$root" -B "$build/$name" -DPENUMBRA_TEST_PREFIX="$name/" -DPENUMBRA_BUILD_EXAMPLES=OFF "${@:2}"
+    cmake --build "$build/$name"
+}
+suite g++ -DCMAKE_CXX_COMPILER=g++
+if ! $quick; then
+    suite clang++ -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_STANDARD=20
+    suite fast-math -DCMAKE_CXX_COMPILER=g++ -DCMAKE_CXX_FLAGS=-ffast-math -DPENUMBRA_TEST_BUILDS=OFF
+    suite sanitize -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Sanitize -DPENUMBRA_TEST_BUILDS=OFF \
+        -DCMAKE_CXX_FLAGS_SANITIZE="-O1 -g -D_GLIBCXX_ASSERTIONS -fno-sanitize-recover=all \
+-fsanitize=address,undefined,float-divide-by-zero,float-cast-overflow -Wno-maybe-uninitialized"  # a false alarm in std::regex
+fi
+
+# One ctest over all of them.
+printf 'subdirs("%s")\n' "${suites[@]}" >"$build/CTestTestfile.cmake"
+echo "== Running; results in $build/results.xml, all output in $build/Testing/Temporary/LastTest.log"
+ctest --test-dir "$build" --output-on-failure --no-tests=error --output-junit "$build/results.xml" "${ctest_options[@]}"
