@@ -25,7 +25,8 @@ class MipMap {
     using Mean = detail::TexelMean<Texel, T>;
 
   public:
-    static constexpr float reach = 1.0F;  ///< how far beyond a box its mean reads, in box sizes
+    /// How far beyond a box its mean reads at most, in the size of the box, or in texels if that is below one.
+    static constexpr float reach = 2.0F;
     MipMap() = default;
 
     /// Builds all levels, down to one texel. Reports an empty image.

@@ -92,7 +92,8 @@ class NBuffer {
     using Mean = detail::TexelMean<Texel, T>;
 
   public:
-    static constexpr float reach = 0.5F;  ///< how far beyond a box its mean reads, in box sizes
+    /// How far beyond a box its mean reads at most, in the size of the box, or in texels if that is below one.
+    static constexpr float reach = 2.0F;
     static constexpr int all_levels = -1;
 
     NBuffer() = default;

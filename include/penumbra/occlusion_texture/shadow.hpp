@@ -223,14 +223,17 @@ class OcclusionTextureShadow {
         }
     }
 
-    /// Whether a kernel lies behind the slice's top and near what the slice holds. `reach` is how far beyond a box its
-    /// mean reads, in box sizes.
-    static bool any_blocked(const Kernels& kernels, const Rect2<T>& occupied_tx, T reach) {
+    /// Whether a kernel lies behind the slice's top and so near what the slice holds that a mean may read it. Else all
+    /// means are exactly 0. `reach` is the filter's.
+    bool any_blocked(const Kernels& kernels, const Rect2<T>& occupied_tx, T reach) const {
         const detail::Boxes<T>& b = kernels.boxes;
+        const T cells = static_cast<T>(options_.light_cells);
+        const T per_size = reach / cells, widened = detail::smallest_box<T> * cells;
         int any = 0;
         for (std::size_t i = 0; i < b.count; ++i) {
             const T width = b.max_x[i] - b.min_x[i], height = b.max_y[i] - b.min_y[i];
-            const T far = reach * (width > height ? width : height);
+            const T size = width > height ? width : height;
+            const T far = (size > cells ? size : cells) * per_size + widened;
             any |= static_cast<int>(kernels.relative[i] > T(0)) &
                    static_cast<int>(b.min_x[i] - far < occupied_tx.max.x) &
                    static_cast<int>(b.max_x[i] + far > occupied_tx.min.x) &

@@ -43,7 +43,8 @@ void build_summed_area(const U* image, int width, int height, std::ptrdiff_t ima
 template <class Sum>
 class SummedArea {
   public:
-    static constexpr float reach = 0.0F;  ///< how far beyond a box its mean reads, in box sizes
+    /// How far beyond a box its mean reads, as for the other filters.
+    static constexpr float reach = 0.0F;
 
     SummedArea() = default;
 
