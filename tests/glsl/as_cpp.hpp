@@ -8,10 +8,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 #include <vector>
 
-#define highp  // after GLM, which has an enumerator of that name
+#define highp  // after all of GLM, which has an enumerator of that name
 
 // What the language gives: a namespace of its own, so that arguments do not bring the snippets' functions with them.
 namespace glsl_language {

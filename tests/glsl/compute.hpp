@@ -7,8 +7,24 @@
 #include <vector>
 
 #include "program.hpp"
+#include "support/folder.hpp"
 
 namespace penumbra::test {
+
+/// How a text reaches the driver.
+enum class Route { direct, spirv_cross };
+
+/// The text of a compute shader, without a version, as glslang and SPIRV-Cross make it for a context's language.
+inline std::string crossed(const Context& context, const std::string& text) {
+    const Folder folder;
+    folder.write("in.comp", "#version 450\n" + text);
+    const bool es = context.api() == Api::es;
+    const std::string language = es ? "--es --version 310" : "--no-es --version 430";
+    if (!folder.run("glslangValidator -G --aml in.comp -o in.spv") ||
+        !folder.run("spirv-cross in.spv " + language + " --output out.comp"))
+        throw std::runtime_error("glslang or SPIRV-Cross rejects the text");
+    return folder.read("out.comp");
+}
 
 /// `body` reads the numbers I(0) … I(inputs − 1) of its tuple, and writes O(0) … O(outputs − 1).
 struct Compute {
@@ -16,12 +32,13 @@ struct Compute {
     int inputs, outputs;
     Program::Options options;
     std::string uniforms, body;
+    Route route = Route::direct;
 
     std::vector<float> run(
         const Context& context, const std::vector<float>& in,
         const std::function<void(const Program&)>& set_uniforms = [](const Program&) {}) const {
         const std::size_t tuples = in.size() / static_cast<std::size_t>(inputs);
-        const Program program(context, Text{text()});
+        const Program program(Text{route == Route::direct ? context.version(true) + text() : crossed(context, text())});
         std::vector<float> out(tuples * static_cast<std::size_t>(outputs));
         const auto bytes = static_cast<GLsizeiptr>(out.size() * sizeof(float));
         GLuint buffers[2];

@@ -1,7 +1,6 @@
 // Snippets and passes in every dialect: GLSL and ES of each version by glslang, and SPIR-V, HLSL, MSL and ES 310 by way
 // of SPIRV-Cross from a program that calls every function.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,35 +12,12 @@
 
 #include "functions.hpp"
 #include "program.hpp"
+#include "support/folder.hpp"
 
 namespace fs = std::filesystem;
 using namespace penumbra;
 
 namespace {
-
-/// A folder that is gone in the end.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("penumbra-dialects-" + std::to_string(::getpid()));
-    Folder() { fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-        return (path / name).string();
-    }
-    /// Runs a command there. Its output is printed if it fails.
-    bool run(const std::string& command) const {
-        const std::string log = (path / "log").string();
-        if (std::system(("cd '" + path.string() + "' && " + command + " >'" + log + "' 2>&1").c_str()) == 0)
-            return true;
-        std::printf("failed: %s\n", command.c_str());
-        std::ifstream in(log);
-        for (std::string line; std::getline(in, line);) std::printf("    %s\n", line.c_str());
-        return false;
-    }
-};
 
 std::string head(const std::string& version) {
     const std::string precision =
@@ -97,7 +73,7 @@ std::string program(const std::string& snippet, const std::vector<std::string>& 
 }  // namespace
 
 TEST_CASE("every snippet compiles as GLSL 330, 430, 450 and ES 300, 310") {
-    const Folder folder;
+    const test::Folder folder;
     for (const fs::path& file : files(".glsl"))
         for (const std::string version : {"330 core", "430 core", "450 core", "300 es", "310 es"}) {
             CAPTURE(file.string());
@@ -109,7 +85,7 @@ TEST_CASE("every snippet compiles as GLSL 330, 430, 450 and ES 300, 310") {
 }
 
 TEST_CASE("every pass compiles in the versions that it names, with every option") {
-    const Folder folder;
+    const test::Folder folder;
     const auto check = [&](const fs::path& file, const std::string& version, const std::string& options) {
         CAPTURE(file.string());
         CAPTURE(version);
@@ -137,7 +113,7 @@ TEST_CASE("every pass compiles in the versions that it names, with every option"
 }
 
 TEST_CASE("queries compile with every option") {
-    const Folder folder;
+    const test::Folder folder;
     for (const std::string version : {"330 core", "300 es"})
         for (const char* filter : {"0", "1", "2"})
             for (const char* rule : {"0", "1", "2", "3"})
@@ -154,7 +130,7 @@ TEST_CASE("queries compile with every option") {
 }
 
 TEST_CASE("every snippet goes through SPIR-V to HLSL, MSL and ES 310") {
-    const Folder folder;
+    const test::Folder folder;
     const auto all = calls();
     for (const fs::path& file : files(".glsl")) {
         const std::string snippet = (file.parent_path() / file.stem()).string();

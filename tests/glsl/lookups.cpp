@@ -118,7 +118,7 @@ TEST_CASE("summed-area sums are exact, means to 1e-6") {
             const Texture table = table_of(slices, size.first, size.second);
             table.bind(0);
             const std::vector<float> in = boxes(size.first, size.second);
-            test::Compute compute{"occlusion_texture/summed_area.glsl", 4, 4, {}, {}, {}};
+            test::Compute compute{"occlusion_texture/summed_area.glsl", 4, 4, {}, {}, {}, Route::direct};
             compute.uniforms = "uniform highp usampler2DArray slices;\n";
             compute.body = "vec4 v = penumbra_summed_area_mean(slices, 0, " + box_text + "); " + put_text;
             const double worst = worst_mean(in, compute.run(context, in), 1.0, filters);
@@ -149,7 +149,7 @@ TEST_CASE("N-Buffer and mip-map means to 1e-5") {
             const Texture levels = n_buffers_of({image});
             levels.bind(0);
             const std::vector<float> in = boxes(size.first, size.second);
-            test::Compute compute{"occlusion_texture/n_buffer.glsl", 4, 4, {}, {}, {}};
+            test::Compute compute{"occlusion_texture/n_buffer.glsl", 4, 4, {}, {}, {}, Route::direct};
             compute.uniforms = "uniform highp sampler2DArray slices;\n";
             compute.body = "vec4 v = penumbra_n_buffer_mean(slices, 1, 0, " + box_text + "); " + put_text;
             const double worst =
@@ -165,7 +165,7 @@ TEST_CASE("N-Buffer and mip-map means to 1e-5") {
                 texture.upload_level(l, map.level(l).width(), map.level(l).height(), map.level(l).data());
             texture.bind(0);
             const std::vector<float> in = boxes(size.first, size.second);
-            test::Compute compute{"occlusion_texture/mipmap.glsl", 4, 4, {}, {}, {}};
+            test::Compute compute{"occlusion_texture/mipmap.glsl", 4, 4, {}, {}, {}, Route::direct};
             compute.uniforms = "uniform highp sampler2DArray slices;\n";
             compute.body = "vec4 v = penumbra_mipmap_mean(slices, " + std::to_string(map.levels()) + ", 0, " +
                            box_text + "); " + put_text;
@@ -220,7 +220,7 @@ struct Query {
             in.insert(in.end(), {point_ls.x, point_ls.y, point_ls.z});
         }
         const std::string sampler = sums ? "usampler2DArray" : "sampler2DArray";
-        test::Compute compute{"occlusion_texture/shadow.glsl", 3, 1, {}, {}, {}};
+        test::Compute compute{"occlusion_texture/shadow.glsl", 3, 1, {}, {}, {}, Route::direct};
         compute.options = {
             "PENUMBRA_OCCLUSION_TEXTURE_FILTER " + std::to_string(sums ? 2 : 1),
             "PENUMBRA_OCCLUSION_TEXTURE_COMBINATION " + std::to_string(static_cast<int>(options.blend.combination)),

@@ -135,7 +135,7 @@ class Texture {
     int width_, height_;
 };
 
-/// A compute shader's text but for its version.
+/// The whole text of a compute shader.
 struct Text {
     std::string text;
 };
@@ -152,9 +152,7 @@ class Program {
     Program(const Context& context, const std::string& compute, const Options& options) {
         link({compile(GL_COMPUTE_SHADER, context, compute, options)});
     }
-    Program(const Context& context, const Text& compute) {
-        link({compile_text(GL_COMPUTE_SHADER, "text", context.version(true) + compute.text)});
-    }
+    explicit Program(const Text& compute) { link({compile_text(GL_COMPUTE_SHADER, "text", compute.text)}); }
     ~Program() { glDeleteProgram(name_); }
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
