@@ -1,6 +1,7 @@
 // Runs a few lines of GLSL on arrays of numbers.
 #pragma once
 
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <string>
@@ -13,6 +14,12 @@ namespace penumbra::test {
 
 /// How a text reaches the driver.
 enum class Route { direct, spirv_cross };
+
+/// All of them; direct only for mutants.sh, which runs tests a few hundred times.
+inline std::vector<Route> routes() {
+    if (std::getenv("PENUMBRA_SHADERS") != nullptr) return {Route::direct};
+    return {Route::direct, Route::spirv_cross};
+}
 
 /// The text of a compute shader, without a version, as glslang and SPIRV-Cross make it for a context's language.
 inline std::string crossed(const Context& context, const std::string& text) {

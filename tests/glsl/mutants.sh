@@ -11,10 +11,8 @@ fi
 programs=$root/build/tests/g++/tests
 [[ -x $programs/test_glsl_functions ]] || { echo "run tests/run.sh --quick first" >&2; exit 2; }
 
-tree=$(mktemp -d)
-trap 'rm -rf "$tree"' EXIT
-cp -r "$root/shaders/penumbra" "$tree/"
-export PENUMBRA_SHADERS=$tree
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
 
 # Lines of file:line:start:length:text, one a mutant. Comments, #lines and loop headers stay as they are.
 list_mutants() {
@@ -37,17 +35,30 @@ list_mutants() {
     } continue { close ARGV if eof;' "$@"  # so that lines are counted anew in each file
 }
 
-total=0 caught=0
-cd "$root/shaders/penumbra"
-while IFS=: read -r file line start length new; do
+# Says whether the tests notice one of these lines.
+try_mutant() {
+    local file line start length new
+    IFS=: read -r file line start length new <<<"$1"
+    local tree=$folder/$BASHPID
+    cp -r "$root/shaders" "$tree"
     perl -pe "substr(\$_, $start, $length) = '$new' if \$. == $line" "$file" >"$tree/penumbra/$file"
-    total=$((total + 1))
-    if ! (cd "$tree" && timeout 60 "$programs/test_glsl_functions" && timeout 60 "$programs/test_glsl_lookups") \
-        >/dev/null 2>&1; then
-        caught=$((caught + 1))
-    else
-        echo "survives: $file:$line: $(sed -n "${line}p" "$file" | sed 's/^ *//') [at $start: $new]"
-    fi
-    cp "$file" "$tree/penumbra/$file"
-done < <(list_mutants ${1:+"$1.glsl"} $([[ ${1:-} ]] || find . -name '*.glsl' | sed 's|^\./||' | sort))
-echo "$caught of $total mutants caught"
+    local verdict=survives
+    for program in functions lookups queries; do
+        if ! (cd "$tree" && PENUMBRA_SHADERS=$tree timeout 60 "$programs/test_glsl_$program" --abort-after=1) \
+            >/dev/null 2>&1; then
+            verdict=caught
+            break
+        fi
+    done
+    rm -rf "$tree"
+    echo "$verdict: $file:$line: $(sed -n "${line}p" "$file" | sed 's/^ *//') [at $start: $new]"
+}
+export -f try_mutant
+export root folder programs
+
+cd "$root/shaders/penumbra"
+files=(${1:+"$1.glsl"})
+((${#files[@]})) || mapfile -t files < <(find . -name '*.glsl' | sed 's|^\./||' | sort)
+list_mutants "${files[@]}" | xargs -d '\n' -P "$(getconf _NPROCESSORS_ONLN)" -I{} bash -c 'try_mutant "$1"' _ {} >"$folder/verdicts"
+grep ^survives "$folder/verdicts" | sort || true
+echo "$(grep -c ^caught "$folder/verdicts") of $(wc -l <"$folder/verdicts") mutants caught"

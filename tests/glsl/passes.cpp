@@ -29,11 +29,7 @@ namespace {
 using Texel = SliceTexel;
 
 Image<Texel> random_slices(int width, int height) {
-    test::Random random(1);
-    Image<Texel> image(width, height);
-    for (std::size_t i = 0; i < image.size(); ++i)
-        for (int c = 0; c < 4; ++c) image.data()[i][c] = static_cast<std::uint8_t>(random.whole(0, 255));
-    return image;
+    return pack_rgba(test::random_slices(width, height, 4), width, height)[0];
 }
 
 constexpr std::pair<int, int> sizes[] = {{1, 1}, {6, 1}, {17, 13}, {100, 130}, {257, 130}};

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "context.hpp"
+#include "texture_array.hpp"
 
 namespace penumbra::test {
 
@@ -64,6 +65,8 @@ class Texture {
                 glClearBufferfv(GL_COLOR, 0, zero);
         }
     }
+    explicit Texture(const Values& values) : Texture(GL_RGBA8, values) { fill(values, GL_RGBA, GL_UNSIGNED_BYTE); }
+    explicit Texture(const Sums& sums) : Texture(GL_RGBA32UI, sums) { fill(sums, GL_RGBA_INTEGER, GL_UNSIGNED_INT); }
     ~Texture() { glDeleteTextures(1, &name_); }
     Texture(Texture&& other) noexcept
         : name_(std::exchange(other.name_, 0U)), width_(other.width_), height_(other.height_) {}
@@ -73,12 +76,6 @@ class Texture {
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glBindTexture(GL_TEXTURE_2D_ARRAY, name_);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, width_, height_, 1, format, type, texels);
-    }
-    /// A mip level of layer 0, RGBA bytes.
-    void upload_level(int level, int width, int height, const void* texels) const {
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, name_);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, level, 0, 0, 0, width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE, texels);
     }
     void bind(int unit) const {
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -114,6 +111,12 @@ class Texture {
         read(layer, GL_RGBA, GL_UNSIGNED_BYTE, result.data());
         return result;
     }
+    /// Of a layer of a float format.
+    std::vector<float> floats(int layer) const {
+        std::vector<float> result(texels() * 4);
+        read(layer, GL_RGBA, GL_FLOAT, result.data());
+        return result;
+    }
     /// Of an RGBA32UI layer.
     std::vector<std::uint32_t> sums(int layer) const {
         std::vector<std::uint32_t> result(texels() * 4);
@@ -122,6 +125,18 @@ class Texture {
     }
 
   private:
+    template <class Array>
+    Texture(GLenum format, const Array& array)
+        : Texture(format, array.levels[0].size.x, array.levels[0].size.y, array.layers,
+                  static_cast<int>(array.levels.size())) {}
+    template <class Array>
+    void fill(const Array& array, GLenum format, GLenum type) const {
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, name_);
+        for (std::size_t l = 0; l < array.levels.size(); ++l)
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, static_cast<GLint>(l), 0, 0, 0, array.levels[l].size.x,
+                            array.levels[l].size.y, array.layers, format, type, array.levels[l].texels.data());
+    }
     std::size_t texels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
     void read(int layer, GLenum format, GLenum type, void* result) const {
         attach(layer, 1);
@@ -135,7 +150,7 @@ class Texture {
     int width_, height_;
 };
 
-/// The whole text of a compute shader.
+/// The whole text of a shader.
 struct Text {
     std::string text;
 };
@@ -148,6 +163,10 @@ class Program {
     Program(const Context& context, const std::string& vertex, const std::string& fragment, const Options& options) {
         link({compile(GL_VERTEX_SHADER, context, vertex, options),
               compile(GL_FRAGMENT_SHADER, context, fragment, options)});
+    }
+    /// With a fragment shader of one's own.
+    Program(const Context& context, const Text& fragment, const std::string& vertex) {
+        link({compile(GL_VERTEX_SHADER, context, vertex, {}), compile_text(GL_FRAGMENT_SHADER, "text", fragment.text)});
     }
     Program(const Context& context, const std::string& compute, const Options& options) {
         link({compile(GL_COMPUTE_SHADER, context, compute, options)});
