@@ -14,7 +14,8 @@ namespace penumbra::test {
 
 /// A folder that is gone in the end.
 struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / ("penumbra-test-" + std::to_string(::getpid()));
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("penumbra-test-" + std::to_string(::getpid()));
     Folder() { std::filesystem::create_directories(path); }
     ~Folder() { std::filesystem::remove_all(path); }
     Folder(const Folder&) = delete;
@@ -27,7 +28,7 @@ struct Folder {
     /// Runs a command there. Its output is printed if it fails.
     bool run(const std::string& command) const {
         const std::string log = (path / "log").string();
-        if (std::system(("cd '" + path.string() + "' && " + command + " >'" + log + "' 2>&1").c_str()) == 0)
+        if (std::system(("cd '" + path.string() + "' && (" + command + ") >'" + log + "' 2>&1").c_str()) == 0)
             return true;
         std::printf("failed: %s\n", command.c_str());
         std::ifstream in(log);
