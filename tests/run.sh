@@ -5,7 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
     cat <<'END'
-Usage: tests/run.sh [--quick] [--no-install] [ctest's options]
+Usage: tests/run.sh [--quick] [--mutants] [--no-install] [ctest's options]
 
 Installs what the tests need (Debian, Ubuntu), builds them below build/tests and runs them:
   g++/        C++17, every variant of compilation, the installed package
@@ -14,26 +14,30 @@ Installs what the tests need (Debian, Ubuntu), builds them below build/tests and
   sanitize/   address and undefined-behaviour sanitizers
 
   --quick       g++/ only
+  --mutants     afterwards breaks the GLSL twins, one constant, sign or comparison at a time: do the tests notice?
   --no-install  take the packages as they are
   --help        this text
 Further options go to ctest: `tests/run.sh -R n_buffer`.
 END
 }
 
-quick=false
+quick=false mutants=false
 ctest_options=()
 for argument in "$@"; do
     case $argument in
         --help | -h) usage; exit 0 ;;
         --quick) quick=true ;;
+        --mutants) mutants=true ;;
         --no-install) export PENUMBRA_NO_INSTALL=1 ;;
         *) ctest_options+=("$argument") ;;
     esac
 done
 
 source "$root/.ci/setup.sh"
+browser=chromium
+if grep -qs '^ID=ubuntu' /etc/os-release; then browser=chromium-browser; fi
 require_packages g++ clang cmake ninja-build libglm-dev doctest-dev libembree-dev libepoxy-dev libegl-dev \
-    libgl1-mesa-dri glslang-tools spirv-tools spirv-cross
+    libgl1-mesa-dri glslang-tools spirv-tools spirv-cross "$browser"
 
 build=$root/build/tests
 suites=()
@@ -58,3 +62,7 @@ fi
 printf 'subdirs("%s")\n' "${suites[@]}" >"$build/CTestTestfile.cmake"
 echo "== Running; results in $build/results.xml, all output in $build/Testing/Temporary/LastTest.log"
 ctest --test-dir "$build" --output-on-failure --no-tests=error --output-junit "$build/results.xml" "${ctest_options[@]}"
+if $mutants; then
+    echo "== Breaking the twins"
+    "$root/tests/glsl/mutants.sh"
+fi

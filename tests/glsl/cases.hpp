@@ -98,7 +98,8 @@ struct QueryCase {
         return {box_mesh<float>({0.3F, 3.0F, -0.2F}, {1, 1, 1}),
                 box_mesh<float>({-1.4F, 2.0F, 0.8F}, {0.4F, 1.1F, 0.5F}),
                 box_mesh<float>({1.2F, 1.0F, 1.1F}, {0.3F, 0.2F, 0.9F}),
-                {{{-2, 1, -2}, {2, 2, -2}, {2, 2, -1}, {-2, 1, -1}}, {{0, 1, 2}, {0, 2, 3}}}};
+                {{{-2, 1, -2}, {2, 2, -2}, {2, 2, -1}, {-2, 1, -1}}, {{0, 1, 2}, {0, 2, 3}}},
+                {{{-1, 7.6F, 0.5F}, {0, 7.6F, 0.5F}, {0, 7.6F, 1.0F}, {-1, 7.6F, 1.0F}}, {{0, 1, 2}, {0, 2, 3}}}};
     }
     std::variant<Values, Sums> texture_of(const SliceImages& slices) const {
         const int w = shadow.camera().width, h = shadow.camera().height;
