@@ -80,7 +80,7 @@ std::string program(const std::string& snippet, const std::vector<std::string>& 
     return text + "}\n";
 }
 
-/// Whether SPIR-V for Vulkan comes from a text, is valid, and becomes HLSL, MSL, and ES 310 that compiles. `stage`:
+/// Whether SPIR-V for Vulkan comes from a text, is valid, and becomes MSL, and HLSL and ES 310 that compile. `stage`:
 /// vert, frag or comp.
 bool crosses(const test::Folder& folder, const std::string& text, const std::string& stage) {
     folder.write("s." + stage, text);
@@ -89,6 +89,8 @@ bool crosses(const test::Folder& folder, const std::string& text, const std::str
            folder.run("spirv-val --target-env vulkan1.1 s.spv") &&
            folder.run("spirv-cross s.spv --hlsl --shader-model 50 --output s50.hlsl") &&
            folder.run("spirv-cross s.spv --hlsl --shader-model 60 --output s60.hlsl") &&
+           folder.run("glslangValidator -D -V -e main -S " + stage + " s50.hlsl -o again.spv") &&
+           folder.run("glslangValidator -D -V -e main -S " + stage + " s60.hlsl -o again.spv") &&
            folder.run("spirv-cross s.spv --msl --output s.metal") &&
            folder.run("spirv-cross s.spv --es --version 310 --output es." + stage) &&
            folder.run("glslangValidator es." + stage);
