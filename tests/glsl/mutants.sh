@@ -74,7 +74,7 @@ grep ^survives "$folder/verdicts" | sed 's/^survives: //' | sort >"$folder/survi
 total=$(wc -l <"$folder/verdicts") alive=$(wc -l <"$folder/survivors")
 cat "$folder/survivors"
 echo "$((total - alive)) of $total mutants caught"
-if grep -vxFf <(grep -v '^#' "$root/tests/glsl/mutants.txt") "$folder/survivors" >"$folder/unexplained"; then
+if grep -vxFf <(grep -v -e '^#' -e '^$' "$root/tests/glsl/mutants.txt") "$folder/survivors" >"$folder/unexplained"; then
     echo "not in mutants.txt:" && cat "$folder/unexplained"
     exit 1
 fi
