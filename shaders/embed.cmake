@@ -10,7 +10,8 @@
 #     occlusion_texture/slice_capture.vert occlusion_texture_slice_capture_vert.
 #
 #   penumbra_embed_shaders(TARGET SHADER...)
-#     The same for one target, which includes it as <TARGET_shaders.hpp>: namespace TARGET_shaders.
+#     The same for one target, which includes it as <TARGET_shaders.hpp>: namespace TARGET_shaders. What cannot stand in
+#     a C++ name becomes _.
 #
 # All at configure time; CMake configures anew when a shader changes.
 
@@ -24,15 +25,16 @@ function(_penumbra_flatten result file seen)
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
         get_filename_component(folder "${file}" DIRECTORY)
         file(READ "${file}" rest)
-        while(rest MATCHES "#include \"([^\"\n]+)\"\n")
-            set(include "${CMAKE_MATCH_1}")
+        while(rest MATCHES "(^|\n)#include \"([^\"\n]+)\"\n")
+            set(line_end "${CMAKE_MATCH_1}")
+            set(include "${folder}/${CMAKE_MATCH_2}")
             string(FIND "${rest}" "${CMAKE_MATCH_0}" at)
             string(LENGTH "${CMAKE_MATCH_0}" length)
             string(SUBSTRING "${rest}" 0 ${at} before)
             math(EXPR at "${at} + ${length}")
             string(SUBSTRING "${rest}" ${at} -1 rest)
-            _penumbra_flatten(included "${folder}/${include}" all)
-            string(APPEND flat "${before}${included}")
+            _penumbra_flatten(included "${include}" all)
+            string(APPEND flat "${before}${line_end}${included}")
         endwhile()
         string(APPEND flat "${rest}")
     endif()
@@ -83,7 +85,8 @@ ${table}};
 endfunction()
 
 function(penumbra_embed_shaders target)
-    set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders")
-    penumbra_write_shaders("${folder}/${target}_shaders.hpp" "${target}_shaders" ${ARGN})
+    string(MAKE_C_IDENTIFIER "${target}_shaders" name)
+    set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}")
+    penumbra_write_shaders("${folder}/${name}.hpp" "${name}" ${ARGN})
     target_include_directories(${target} PRIVATE "${folder}")
 endfunction()
