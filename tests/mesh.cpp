@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <penumbra/mesh.hpp>
@@ -139,4 +141,49 @@ TEST_CASE("closed: solids and what is glued of them; not: borders, turned faces,
     for (const glm::uvec3& t : {glm::uvec3(0, 4, 1), glm::uvec3(0, 1, 5), glm::uvec3(1, 4, 5), glm::uvec3(0, 5, 4)})
         mesh.triangles.push_back(t);
     CHECK(closed(mesh));
+}
+
+TEST_CASE_TEMPLATE("welding joins vertices of equal coordinates, and nothing else", T, float, double) {
+    test::Random random(2);
+    for (int round = 0; round < 200; ++round) {
+        // few different coordinates, so that many vertices coincide; 0 and −0 are the same place
+        Mesh<T> mesh;
+        const int points = random.whole(1, 60);
+        const auto coordinate = [&] {
+            return std::array<T, 4>{T(0), -T(0), T(1),
+                                    std::nextafter(T(1), T(2))}[static_cast<std::size_t>(random.whole(0, 3))];
+        };
+        for (int i = 0; i < points; ++i) {
+            const T x = coordinate(), y = coordinate(), z = coordinate();
+            mesh.positions.push_back(Vec3<T>(x, y, z));
+        }
+        for (int f = 0; f < 20; ++f) {
+            const auto index = [&] { return static_cast<unsigned>(random.whole(0, points - 1)); };
+            const unsigned a = index(), b = index(), c = index();
+            mesh.triangles.emplace_back(a, b, c);
+        }
+        const Mesh<T> welded = weld(mesh);
+        std::vector<Vec3<T>> truth;  // in order of first appearance, each searched for among all before it
+        for (const Vec3<T>& p : mesh.positions)
+            if (std::find(truth.begin(), truth.end(), p) == truth.end()) truth.push_back(p);
+        CHECK(welded.positions == truth);
+        REQUIRE(welded.triangles.size() == mesh.triangles.size());
+        for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+            for (int k = 0; k < 3; ++k)
+                CHECK(welded.positions.at(welded.triangles[f][k]) == mesh.positions[mesh.triangles[f][k]]);
+        CHECK(weld(welded).positions == welded.positions);
+        CHECK(weld(welded).triangles == welded.triangles);
+    }
+    CHECK(weld(Mesh<T>()).positions.empty());
+    // A solid whose faces come with vertices of their own is closed once it is welded.
+    const Mesh<T> solid = tetrahedron<T>();
+    Mesh<T> apart;
+    for (const glm::uvec3& t : solid.triangles) {
+        const auto first = static_cast<unsigned>(apart.positions.size());
+        for (int k = 0; k < 3; ++k) apart.positions.push_back(solid.positions[t[k]]);
+        apart.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    CHECK(!is_closed(edge_adjacency(apart)));
+    CHECK(weld(apart).positions.size() == 4);
+    CHECK(is_closed(edge_adjacency(weld(apart))));
 }

@@ -70,6 +70,31 @@ Box3<T> bounds(const std::vector<Mesh<T>>& meshes) {
     return box;
 }
 
+/// The mesh with every position once: vertices whose coordinates are all equal (0 and −0 are) become one, the first of
+/// them, and what no triangle uses is kept. Triangles keep their number and order; those whose corners fall together
+/// lose their area. For a valid mesh. O(n log n), deterministic.
+template <class T>
+Mesh<T> weld(const Mesh<T>& mesh) {
+    const std::vector<Vec3<T>>& all = mesh.positions;
+    std::vector<std::uint32_t> order(all.size()), index(all.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
+        const Vec3<T>&a = all[i], &b = all[k];
+        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z != b.z ? a.z < b.z : i < k;
+    });
+    for (std::size_t i = 0; i < order.size(); ++i)  // the first vertex at each vertex's place
+        index[order[i]] = i > 0 && all[order[i]] == all[order[i - 1]] ? index[order[i - 1]] : order[i];
+    Mesh<T> result;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool first = index[i] == i;  // else it comes after its first, whose index is new already
+        if (first) result.positions.push_back(all[i]);
+        index[i] = first ? static_cast<std::uint32_t>(result.positions.size() - 1) : index[index[i]];
+    }
+    result.triangles.reserve(mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles) result.triangles.emplace_back(index[t.x], index[t.y], index[t.z]);
+    return result;
+}
+
 /// An undirected edge a < b and the slice [first, first + count) of EdgeAdjacency::faces that meet at it.
 struct Edge {
     std::uint32_t a, b;

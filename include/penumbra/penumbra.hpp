@@ -15,4 +15,5 @@
 #include <penumbra/occlusion_texture/slice_camera.hpp>
 #include <penumbra/occlusion_texture/slices.hpp>
 #include <penumbra/occlusion_texture/summed_area.hpp>
+#include <penumbra/penumbra_wedge/silhouette.hpp>
 #include <penumbra/raster.hpp>

@@ -23,6 +23,7 @@
     template bool validate(const Mesh<T>&, const std::string&);                                                  \
     template Box3<T> bounds(const std::vector<Mesh<T>>&);                                                        \
     template EdgeAdjacency edge_adjacency(const Mesh<T>&);                                                       \
+    template Mesh<T> weld(const Mesh<T>&);                                                                       \
     template class Image<T>;                                                                                     \
     template T bilinear(const Image<std::uint8_t>&, T, T);                                                       \
     template void rasterize(const RasterVertex<T>&, const RasterVertex<T>&, const RasterVertex<T>&, int, int, T, \
@@ -36,7 +37,11 @@
     template Rect2<T> kernel_rect(T, const Vec3<T>&, const Rect2<T>&);                                           \
     template class MipMap<T>;                                                                                    \
     template class NBuffer<T>;                                                                                   \
-    template class OcclusionTextureShadow<T>;
+    template class OcclusionTextureShadow<T>;                                                                    \
+    template Vec3<T> face_normal(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&);                                \
+    template T silhouette_tolerance(const Box3<T>&);                                                             \
+    template int face_winding(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T, Surface);                       \
+    template std::vector<SilhouetteEdge> silhouette(const Mesh<T>&, const EdgeAdjacency&, const Vec3<T>&, Viewer);
 
 namespace penumbra {
 

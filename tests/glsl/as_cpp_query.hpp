@@ -4,6 +4,7 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // some options leave a parameter unused
 #include "../../shaders/penumbra/light.glsl"
 #include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #pragma GCC diagnostic pop
 
 /// What was compiled.
@@ -32,6 +33,7 @@ struct Query {
 #undef PENUMBRA_NUMERIC_GLSL
 #undef PENUMBRA_N_BUFFER_GLSL
 #undef PENUMBRA_OCCLUSION_TEXTURE_SHADOW_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL

@@ -8,6 +8,7 @@
 #include "functions/light.hpp"
 #include "functions/numeric.hpp"
 #include "functions/occlusion_texture.hpp"
+#include "functions/penumbra_wedge_wedge.hpp"
 
 namespace penumbra::test::functions {
 
@@ -18,6 +19,7 @@ inline std::vector<Function> all() {
     add_light(result);
     add_combine(result);
     add_occlusion_texture(result);
+    add_penumbra_wedge_wedge(result);
     return result;
 }
 
