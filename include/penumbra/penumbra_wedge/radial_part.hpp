@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <penumbra/geometry.hpp>
 #include <penumbra/penumbra_wedge/coverage.hpp>
@@ -60,19 +61,21 @@ Rect2<T> quadrant(const Rect2<T>& box, int index) {
 
 namespace detail {
 
-/// `rect` with the part of an edge that lies in `inside`. `least_x` and `most_x` are those of the whole edge.
+/// Where the ends of an edge come to lie in v when its u is limited to [low, high]. From the first end, so that a far
+/// second one does not drown it; limits that the edge does not reach give its nearest end.
 template <class T>
-Rect2<T> extend_by_edge(const Rect2<T>& rect, const ColumnEdge<T>& e, T least_x, T most_x, const Rect2<T>& inside) {
-    const T least_y = e.y0 < e.y1 ? e.y0 : e.y1, most_y = e.y0 < e.y1 ? e.y1 : e.y0;
-    if (!(most_x >= inside.min.x && least_x <= inside.max.x)) return rect;
-    if (!(most_y >= inside.min.y && least_y <= inside.max.y)) return rect;
-    const T c0 = clamp(e.y0, inside.min.y, inside.max.y), c1 = clamp(e.y1, inside.min.y, inside.max.y);
-    const T rise = e.y1 - e.y0, width = e.x1 - e.x0, safe_rise = rise != T(0) ? rise : T(1);
-    const T enter = saturate((c0 - e.y0) / safe_rise), leave = T(1) - saturate((e.y1 - c1) / safe_rise);
-    return extend(extend(rect, Vec2<T>(e.x0 + enter * width, c0)), Vec2<T>(e.x0 + leave * width, c1));
+struct LimitedEnds {
+    T first, second;
+};
+
+template <class T>
+LimitedEnds<T> limited_ends(T u0, T v0, T u1, T v1, T low, T high) {
+    const T at0 = clamp(u0, low, high), at1 = clamp(u1, low, high), run = u1 - u0;
+    const T t0 = saturate(safe_ratio(at0 - u0, run, T(0))), t1 = saturate(safe_ratio(at1 - u0, run, T(0)));
+    return {at0 == u0 ? v0 : v0 + t0 * (v1 - v0), at1 == u1 ? v1 : v0 + t1 * (v1 - v0)};
 }
 
-/// 1 for an edge that crosses the column at x leftwards, −1 rightwards.
+/// −1 for an edge that crosses the column at x rightwards, 1 leftwards.
 template <class T>
 int column_crossing(T ax, T bx, T x) {
     return (ax > x ? 1 : 0) - (bx > x ? 1 : 0);
@@ -110,11 +113,20 @@ struct RadialPartBuilder {
         area += times * below.area;
         moment.x += times * below.x;
         moment.y += times * below.y;
-        const detail::ColumnEdge<T> e = detail::column_edge(a.x, a.y, b.x, b.y, inside);
-        const T least_x = a.x < b.x ? a.x : b.x, most_x = a.x < b.x ? b.x : a.x;
-        if (weight != 0) rect = detail::extend_by_edge(rect, e, least_x, most_x, inside);
-        const bool rightwards = e.x0 < e.x1;
-        const T y_left = rightwards ? e.y0 : e.y1, y_right = rightwards ? e.y1 : e.y0;
+        // from the nearer end; the same for the reversed edge, bit for bit
+        const Vec2<T> middle((box.min.x + box.max.x) * T(0.5), (box.min.y + box.max.y) * T(0.5));
+        const T far_a = std::abs(a.x - middle.x) + std::abs(a.y - middle.y);
+        const T far_b = std::abs(b.x - middle.x) + std::abs(b.y - middle.y);
+        const bool forward = far_a == far_b ? a.x < b.x || (a.x == b.x && a.y < b.y) : far_a < far_b;
+        const Vec2<T> p = forward ? a : b, q = forward ? b : a;
+        const auto y = detail::limited_ends(p.x, p.y, q.x, q.y, inside.min.x, inside.max.x);
+        const auto x = detail::limited_ends(p.y, p.x, q.y, q.x, inside.min.y, inside.max.y);
+        const Rect2<T> limited{Vec2<T>(glm::min(x.first, x.second), glm::min(y.first, y.second)),
+                               Vec2<T>(glm::max(x.first, x.second), glm::max(y.first, y.second))};
+        const Rect2<T> common = intersect(limited, inside);
+        if (weight != 0 && common.min.x <= common.max.x && common.min.y <= common.max.y)
+            rect = extend(extend(rect, common.min), common.max);
+        const T y_left = p.x < q.x ? y.first : y.second, y_right = p.x < q.x ? y.second : y.first;
         const int left = weight * detail::column_crossing(a.x, b.x, inside.min.x);
         const int right = weight * detail::column_crossing(a.x, b.x, inside.max.x);
         winding[0] += y_left > inside.min.y ? left : 0;
