@@ -62,7 +62,8 @@ using Quad = long double;
 #endif
 
 /// ∫ w dA over the box.
-inline double winding_area(const Polygon2& loop, const Rect2<double>& box) {
+template <class Point>
+double winding_area(const std::vector<Point>& loop, const Rect2<double>& box) {
     return static_cast<double>(winding_moments(loop, box).area);
 }
 
@@ -108,7 +109,7 @@ inline void add_edge(std::vector<Border>& borders, glm::dvec2 a, glm::dvec2 b, s
 /// Area of the part of the box that at least one shape covers. A shape is what any number of loops together wind
 /// around, non-zero winding: polygons of any orientation, also such that cross themselves, with holes, touching.
 /// Error about 1e-14 of the box for coordinates within some box sizes.
-inline double union_area(const std::vector<std::vector<Polygon2>>& shapes, const Rect2<double>& box) {
+inline double union_area_of_shapes(const std::vector<std::vector<Polygon2>>& shapes, const Rect2<double>& box) {
     using union_area_detail::Border;
     std::vector<Border> borders;
     for (std::size_t s = 0; s < shapes.size(); ++s)
@@ -168,7 +169,7 @@ inline double union_area(const std::vector<std::vector<Polygon2>>& shapes, const
 inline double union_area(const std::vector<Polygon2>& polygons, const Rect2<double>& box) {
     std::vector<std::vector<Polygon2>> shapes;
     for (const Polygon2& polygon : polygons) shapes.push_back({polygon});
-    return union_area(shapes, box);
+    return union_area_of_shapes(shapes, box);
 }
 
 }  // namespace penumbra::test

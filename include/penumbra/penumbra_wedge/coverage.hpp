@@ -9,54 +9,69 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <penumbra/geometry.hpp>
 
 namespace penumbra {
 
 namespace detail {
 
-/// An edge within the box's columns, from its nearer end to the farther: both x inside, y not yet limited. Order and
-/// `sign` make results change sign bit for bit when an edge is reversed. Interpolates from the nearer end, which keeps
-/// ends at 1e5 or 1e18 from drowning what lies in the box.
+/// x limited to [low, high]: `clamp` as two choices in a row, without a branch, so that loops vectorise.
+template <class T>
+inline T limit(T x, T low, T high) {
+    const T raised = x > low ? x : low;
+    return raised < high ? raised : high;
+}
+
+/// What may be divided by: itself, or 2 where it is zero or a denormal, which drivers flush and whose reciprocal is
+/// infinite. Not 1, which compilers take for a reason to branch.
+template <class T>
+inline T divisor(T x) {
+    return std::abs(x) >= std::numeric_limits<T>::min() ? x : T(2);
+}
+
+/// An edge within the box's columns: both x limited to the box, y not yet. From the end nearer to the box's middle in
+/// y, from which it is interpolated, to the other: ends at 1e5 or 1e18 then do not drown what lies in the box. This
+/// order and `sign` make results change sign bit for bit when an edge is reversed.
 template <class T>
 struct ColumnEdge {
     T x0, y0, x1, y1, sign;
 };
 
 template <class T>
-ColumnEdge<T> column_edge(T ax, T ay, T bx, T by, const Rect2<T>& box) {
-    const T middle_x = (box.min.x + box.max.x) * T(0.5), middle_y = (box.min.y + box.max.y) * T(0.5);
-    const T far_a = std::abs(ax - middle_x) + std::abs(ay - middle_y);
-    const T far_b = std::abs(bx - middle_x) + std::abs(by - middle_y);
-    const bool tie = far_a == far_b, left = ax < bx || (ax == bx && ay < by);
-    const bool forward = tie ? left : far_a < far_b;
+inline ColumnEdge<T> column_edge(T ax, T ay, T bx, T by, const Rect2<T>& box) {
+    const T middle = (box.min.y + box.max.y) * T(0.5);
+    const T far_a = std::abs(ay - middle), far_b = std::abs(by - middle);
+    const bool left = (ax < bx) | ((ax == bx) & (ay < by));  // no && and ||, which branch
+    const bool forward = (far_a < far_b) | ((far_a == far_b) & left);
     const T nx = forward ? ax : bx, ny = forward ? ay : by, fx = forward ? bx : ax, fy = forward ? by : ay;
-    const T x0 = clamp(nx, box.min.x, box.max.x), x1 = clamp(fx, box.min.x, box.max.x);
-    const T width = fx - nx, slope = (fy - ny) / (width != T(0) ? width : T(1));
-    const T y0 = x0 == nx ? ny : ny + (x0 - nx) * slope, y1 = x1 == fx ? fy : ny + (x1 - nx) * slope;
-    return {x0, y0, x1, y1, forward ? T(1) : T(-1)};
+    const T run = divisor(fx - nx), rise = fy - ny;
+    const T x0 = limit(nx, box.min.x, box.max.x), x1 = limit(fx, box.min.x, box.max.x);
+    return {x0, ny + (x0 - nx) / run * rise, x1, ny + (x1 - nx) / run * rise, forward ? T(1) : T(-1)};
 }
 
 /// edge_coverage without vectors: loops over arrays of edges vectorise.
 template <class T>
-T edge_coverage(T ax, T ay, T bx, T by, const Rect2<T>& box) {
+inline T edge_coverage(T ax, T ay, T bx, T by, const Rect2<T>& box) {
     const ColumnEdge<T> e = column_edge(ax, ay, bx, by, box);
-    const T c0 = clamp(e.y0, box.min.y, box.max.y), c1 = clamp(e.y1, box.min.y, box.max.y);
+    const T c0 = limit(e.y0, box.min.y, box.max.y), c1 = limit(e.y1, box.min.y, box.max.y);
     // twice the mean of the limited y: its ends' sum, and how much longer it stays at one limit than at the other
-    const T rise = e.y1 - e.y0;
-    const T lean = clamp(((c0 + c1) - (e.y0 + e.y1)) / (rise != T(0) ? rise : T(1)), T(-1), T(1));
+    const T rise = e.y1 - e.y0, most = std::abs(rise);
+    const T lean = limit((c0 - e.y0) + (c1 - e.y1), -most, most) / divisor(rise);
     const T twice_mean = ((c0 - box.min.y) + (c1 - box.min.y)) + lean * (c0 - c1);
-    return e.sign * (T(-0.5) * (e.x1 - e.x0) * twice_mean);
+    return e.sign * (T(0.5) * (e.x0 - e.x1) * twice_mean);
 }
 
 }  // namespace detail
 
 /// The signed area of the part of `box` below the edge from a to b, between its ends' columns: summed over a closed
 /// loop that runs counter-clockwise it is the loop's area inside the box, winding counted. Plane coordinates, any unit;
-/// the result is in that unit squared, within ± area(box). Domain: |coordinates| ≤ 1e18, box not empty. Degenerate:
-/// 0 for a vertical edge, one of no length, one beside or below the box. Reversing an edge changes the sign of the
-/// result and no bit else. Error: 4 ε area(box) for ends within 3 box sizes; a loop's sum stays within 5e-7 (float) and
-/// 1e-14 (double) of the box's area up to 32 edges.
+/// the result is in that unit squared, within ± area(box) but for 2 ε. Domain: |coordinates| ≤ 1e18, box not empty.
+/// Degenerate: 0 for a vertical edge, one of no length, one beside or below the box, and in a box without area.
+/// Reversing an edge changes the sign of the result and no bit else; scaling by a power of two is exact. Error in units
+/// of area(box): 1.5 ε for an edge with an end within 3 half-sizes of the box's middle, wherever the other is; else ε
+/// times the distance of the nearer end. Measured of loops of up to 6 edges: 2.5 ε (3.0e-7, 4.7e-16), below 5e-7 and
+/// 1e-14 for each time that a loop runs around. Sums of edges that cancel, above the box, leave their rounding.
 template <class T>
 T edge_coverage(const Vec2<T>& a, const Vec2<T>& b, const Rect2<T>& box) {
     return detail::edge_coverage(a.x, a.y, b.x, b.y, box);
@@ -83,27 +98,26 @@ CoverageMoments<T> operator+(const CoverageMoments<T>& a, const CoverageMoments<
     return {a.area + b.area, a.x + b.x, a.y + b.y};
 }
 
-/// edge_coverage with moments: the limited edge is a polyline of up to three pieces, integrated one by one. Domain,
-/// degenerate cases and antisymmetry as edge_coverage. Error: 8 ε of area(box), of area(box) · extent for the moments.
+/// edge_coverage with moments: the limited edge is a polyline of up to three pieces. Domain, degenerate cases, exact
+/// signs and scales as edge_coverage; `area` differs from it by rounding. Error as there, for moments in units of
+/// area(box) · extent.
 template <class T>
-CoverageMoments<T> edge_moments(const Vec2<T>& a, const Vec2<T>& b, const Rect2<T>& box) {
+inline CoverageMoments<T> edge_moments(const Vec2<T>& a, const Vec2<T>& b, const Rect2<T>& box) {
     const detail::ColumnEdge<T> e = detail::column_edge(a.x, a.y, b.x, b.y, box);
-    const T c0 = clamp(e.y0, box.min.y, box.max.y), c1 = clamp(e.y1, box.min.y, box.max.y);
-    const T rise = e.y1 - e.y0, width = e.x1 - e.x0, safe_rise = rise != T(0) ? rise : T(1);
-    // where the edge leaves the first limit and reaches the last; the same place where it stays beyond one limit
-    const T enter = c0 == c1 ? T(0) : saturate((c0 - e.y0) / safe_rise);
-    const T leave = c0 == c1 ? T(1) : saturate((c1 - e.y0) / safe_rise);
-    const T x[4] = {e.x0 - box.min.x, e.x0 - box.min.x + enter * width, e.x0 - box.min.x + leave * width,
-                    e.x1 - box.min.x};
-    const T h[4] = {c0 - box.min.y, c0 - box.min.y, c1 - box.min.y, c1 - box.min.y};
-    CoverageMoments<T> sum{T(0), T(0), T(0)};
-    for (int k = 0; k < 3; ++k) {
-        const T sixth = e.sign * (x[k] - x[k + 1]) / T(6);
-        sum.area += T(3) * sixth * (h[k] + h[k + 1]);
-        sum.x += sixth * (h[k] * (T(2) * x[k] + x[k + 1]) + h[k + 1] * (x[k] + T(2) * x[k + 1]));
-        sum.y += sixth * (h[k] * h[k] + h[k] * h[k + 1] + h[k + 1] * h[k + 1]);
-    }
-    return sum;
+    const T y0 = detail::limit(e.y0, box.min.y, box.max.y), y1 = detail::limit(e.y1, box.min.y, box.max.y);
+    // the shares of the way at which the edge leaves the first limit and reaches the last; any, if it stays at one
+    const T rise = std::abs(e.y1 - e.y0), safe_rise = detail::divisor(rise), run = e.x1 - e.x0;
+    const T enter = detail::limit(std::abs(y0 - e.y0), T(0), rise) / safe_rise;
+    const T leave = detail::limit(std::abs(y1 - e.y0), T(0), rise) / safe_rise;
+    // means along the way of the height, of height times share of the way, of height squared
+    const T h0 = y0 - box.min.y, h1 = y1 - box.min.y;
+    const T before = enter * h0, between = leave - enter, after = (T(1) - leave) * h1;
+    const T mean = before + between * (h0 + h1) * T(0.5) + after;
+    const T mean_way = T(0.5) * (before * enter + after * (T(1) + leave)) +
+                       between * (h0 * (T(2) * enter + leave) + h1 * (enter + T(2) * leave)) * T(1.0 / 6.0);
+    const T mean_square = before * h0 + between * (h0 * h0 + h0 * h1 + h1 * h1) * T(1.0 / 3.0) + after * h1;
+    const T along = -e.sign * run;
+    return {along * mean, along * ((e.x0 - box.min.x) * mean + run * mean_way), along * T(0.5) * mean_square};
 }
 
 }  // namespace penumbra
