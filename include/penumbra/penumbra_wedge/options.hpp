@@ -1,0 +1,41 @@
+// The knobs of penumbra-wedge shadows, and what they trade.
+#pragma once
+
+#include <penumbra/detail/error.hpp>
+#include <string>
+
+namespace penumbra {
+
+/// How what several silhouettes block of the light combines, one silhouette a mesh but for `bitmask`.
+enum class OverlapRule {
+    additive,             ///< plain wedges: right where silhouettes do not overlap, too dark elsewhere
+    maximum,              ///< right where one hides behind the other
+    product,              ///< overlaps are as random, over the whole light
+    product_quadrants,    ///< the same in each quarter of the light
+    rectangles,           ///< overlap by bounding rectangles in each quarter: the paper
+    rectangles_centroid,  ///< the same with centres of gravity: the paper's future work
+    rectangle_product,    ///< rectangles as random, in any order of silhouettes
+    bitmask               ///< where silhouettes lie, cell by cell, beside their exact areas
+};
+
+/// From where silhouettes are seen.
+enum class SilhouetteFrom {
+    light_center,  ///< once, at build time: the paper
+    point          ///< from each shaded point: exact
+};
+
+struct PenumbraWedgeOptions {
+    OverlapRule overlap = OverlapRule::bitmask;
+    /// Cells along each side of the light for OverlapRule::bitmask: 8, 16 or 32.
+    int bitmask_size = 32;
+    SilhouetteFrom silhouette = SilhouetteFrom::point;
+};
+
+/// Reports an option out of its range by name and value. True if there is none.
+inline bool validate(const PenumbraWedgeOptions& options) {
+    const int size = options.bitmask_size;
+    return detail::require(size == 8 || size == 16 || size == 32,
+                           [&] { return "options.bitmask_size = " + std::to_string(size) + " is not 8, 16 or 32"; });
+}
+
+}  // namespace penumbra

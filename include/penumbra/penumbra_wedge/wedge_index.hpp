@@ -1,0 +1,287 @@
+// Which edges matter to a point: a tree over everything that casts, in light space.
+//
+// A point sees the light through a pyramid. Casters beside it do not matter, nor do those beyond the point. Of a caster
+// that does, an edge matters if it is on the silhouette and lies in the pyramid's columns, not below it: it then adds
+// what lies of the light below it (coverage.hpp), so that edges above the pyramid say whether the caster blocks all or
+// nothing. Subtrees whose faces all look away, or all do not, hold no silhouette and are passed over: cost grows with
+// the silhouette and the logarithm of the mesh.
+//
+// Faces that reach from the near side of the point's depth to the far one cannot be projected edge by edge. They are
+// left out of the chain, which then has its border where they were, and are cut one by one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <penumbra/penumbra_wedge/clip.hpp>
+#include <penumbra/penumbra_wedge/wedge_tree.hpp>
+#include <vector>
+
+namespace penumbra {
+
+/// Up to 64 points in light space, all at depth > 0, as arrays, with what bounds their pyramids to the light. The
+/// nearer they are to each other, the fewer edges they are asked about together.
+template <class T>
+struct PointTile {
+    static constexpr std::size_t capacity = 64;
+    using Values = std::array<T, capacity>;
+
+    Values x, y, depth;
+    std::size_t count = 0;       ///< points
+    std::size_t lanes = 0;       ///< count rounded up to a multiple of 8; the last point stands there again
+    Rect2<T> light;              ///< its box
+    Box3<T> box;                 ///< around the points
+    Vec3<T> center;              ///< of that box
+    T radius;                    ///< of the points around it
+    T right, left, top, bottom;  ///< slopes of the pyramids' sides: beyond them is none
+
+    void push(const Vec3<T>& point_ls) {
+        x[count] = point_ls.x, y[count] = point_ls.y, depth[count] = point_ls.z;
+        ++count;
+    }
+    /// After the last point, of at least one.
+    void finish(const Vec2<T>& half_size) {
+        light = {-half_size, half_size};
+        for (lanes = count; lanes % 8 != 0; ++lanes)
+            x[lanes] = x[count - 1], y[lanes] = y[count - 1], depth[lanes] = depth[count - 1];
+        constexpr T big = std::numeric_limits<T>::max();
+        box = empty_box<T>();
+        right = top = -big, left = bottom = big;
+        for (std::size_t i = 0; i < count; ++i) {
+            box = extend(box, Vec3<T>(x[i], y[i], depth[i]));
+            right = std::max(right, (x[i] - half_size.x) / depth[i]);
+            left = std::min(left, (x[i] + half_size.x) / depth[i]);
+            top = std::max(top, (y[i] - half_size.y) / depth[i]);
+            bottom = std::min(bottom, (y[i] + half_size.y) / depth[i]);
+        }
+        center = (box.min + box.max) * T(0.5);
+        const Vec3<T> half = (box.max - box.min) * T(0.5);
+        radius = std::sqrt(glm::dot(half, half)) * T(1.0001);
+    }
+    Vec3<T> operator[](std::size_t i) const { return Vec3<T>(x[i], y[i], depth[i]); }
+};
+
+/// An edge as each lane of a tile sees it on the light's plane. It counts `coefficient` times there: 0 where it is not
+/// on the silhouette.
+template <class T>
+struct TileEdge {
+    typename PointTile<T>::Values ax, ay, bx, by, coefficient;
+};
+
+/// Built once; queried from any number of threads, without allocation.
+template <class T>
+class WedgeIndex {
+  public:
+    using Values = typename PointTile<T>::Values;
+
+    WedgeIndex() = default;
+    /// `surfaces`: what detail::lit_surface makes of each mesh. A face is on a point, and hides nothing from it, if its
+    /// plane passes within `tolerance` of it.
+    WedgeIndex(const std::vector<detail::Surface<T>>& surfaces, SilhouetteFrom from, T tolerance)
+        : from_(from), tolerance_(tolerance) {
+        detail::WedgeTreeBuilder<T>(surfaces, from, tree_);
+    }
+
+    bool empty() const { return tree_.nodes.empty(); }
+    std::size_t bytes() const { return tree_.bytes(); }
+
+    /// Calls, for each mesh that may block, visitor.begin_mesh(); for each of its pieces begin_piece(bool simple),
+    /// where simple pieces cover no part of the light twice; edges(const TileEdge<T>&) for edges, and edge(lane, from,
+    /// to, coefficient) for those of faces that are cut one by one; then end_piece() and end_mesh(). The sum of
+    /// coefficient · edge_coverage over a piece is what it blocks of tile.light, winding counted.
+    template <class Visitor>
+    void visit(const PointTile<T>& tile, Visitor& visitor) const {
+        const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
+        std::uint32_t mesh_end = 0, piece_end = 0;  // of those that are open, else 0
+        const auto leave = [&](std::uint32_t at) {
+            if (piece_end > 0 && at >= piece_end) visitor.end_piece(), piece_end = 0;
+            if (mesh_end > 0 && at >= mesh_end) visitor.end_mesh(), mesh_end = 0;
+        };
+        for (std::uint32_t at = 0; at < end;) {
+            leave(at);
+            const Node& node = tree_.nodes[at];
+            const bool is_part = node.in_piece && !node.piece_root;
+            if (misses(tile, node.box, is_part) || (node.in_piece && has_no_silhouette(tile, node))) {
+                at = node.skip;
+                continue;
+            }
+            if (node.mesh_root) visitor.begin_mesh(), mesh_end = node.skip;
+            if (node.piece_root) visitor.begin_piece(node.box, node.simple), piece_end = node.skip;
+            if (node.edge_count > 0) visit_leaf(tile, node, visitor);
+            ++at;
+        }
+        leave(end);
+    }
+
+  private:
+    using Node = detail::WedgeNode<T>;
+    using Face = detail::WedgeFace<T>;
+
+    /// The coefficients of a leaf's faces: one for all lanes, or one for each.
+    struct Coefficients {
+        static constexpr std::size_t most = detail::WedgeTree<T>::most_faces;
+        std::array<bool, most> uniform;
+        std::array<T, most> value;
+        std::array<Values, most> lanes;
+    };
+
+    /// Whether nothing in a box can be in a pyramid; for a part of a piece, nor above one.
+    static bool misses(const PointTile<T>& tile, const Box3<T>& box, bool is_part) {
+        const T near = box.min.z, far = std::min(box.max.z, tile.box.max.z);
+        if (near >= tile.box.max.z) return true;
+        const Vec2<T> half = tile.light.max;
+        return box.min.x - half.x > std::max(tile.right * near, tile.right * far) ||
+               box.max.x + half.x < std::min(tile.left * near, tile.left * far) ||
+               box.max.y + half.y < std::min(tile.bottom * near, tile.bottom * far) ||
+               (!is_part && box.min.y - half.y > std::max(tile.top * near, tile.top * far));
+    }
+
+    /// How near a plane through `at` may pass to a point before the point itself must be asked.
+    T slack(const PointTile<T>& tile, const Vec3<T>& at) const {
+        const Vec3<T> way = glm::abs(tile.center - at);
+        const T rounding = T(8) * std::numeric_limits<T>::epsilon() * (way.x + way.y + way.z + tile.radius);
+        return tile.radius + T(2) * tolerance_ + rounding;
+    }
+    bool touches(const PointTile<T>& tile, const Box3<T>& box) const {
+        const Vec3<T> low = tile.box.min - tolerance_ * T(2), high = tile.box.max + tolerance_ * T(2);
+        return box.min.x <= high.x && box.max.x >= low.x && box.min.y <= high.y && box.max.y >= low.y &&
+               box.min.z <= high.z && box.max.z >= low.z;
+    }
+
+    bool has_no_silhouette(const PointTile<T>& tile, const Node& node) const {
+        int least = node.least, most = node.most;
+        if (from_ == SilhouetteFrom::light_center) {
+            if (least != most || touches(tile, node.box)) return false;
+        } else {
+            const Vec3<T> middle = (node.box.min + node.box.max) * T(0.5), way = tile.center - middle;
+            const Vec3<T> a = way * node.normal_min, b = way * node.normal_max;
+            const Vec3<T> low = glm::min(a, b), high = glm::max(a, b);
+            const T room = slack(tile, middle);
+            const bool front = low.x + low.y + low.z + node.offset_min > room;
+            const bool away = high.x + high.y + high.z + node.offset_max < -room;
+            if (!front && !away) return false;
+            const int coefficient = away ? -1 : node.solid ? 0 : 1;
+            least = std::min(least, coefficient), most = std::max(most, coefficient);
+        }
+        const bool none_reaches_beyond = node.box.max.z < tile.box.min.z;
+        return least == most && (none_reaches_beyond || least == 0);
+    }
+
+    template <class Visitor>
+    void visit_leaf(const PointTile<T>& tile, const Node& node, Visitor& visitor) const {
+        Coefficients coefficients;
+        coefficients.uniform[0] = coefficients.uniform[1] = true;
+        coefficients.value[0] = T(0), coefficients.value[1] = T(-1);
+        for (std::size_t f = 0; f < node.face_count; ++f) {
+            const Face& face = tree_.faces[node.first_face + f];
+            find_coefficients(tile, face, coefficients, f + 2);
+            if (f < node.owned_faces && face.depth_max >= tile.box.min.z && face.depth_min < tile.box.max.z)
+                cut_face(tile, face, visitor);
+        }
+        TileEdge<T> seen;
+        for (std::size_t e = 0; e < node.edge_count; ++e) {
+            const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
+            if (is_on_silhouette(tile, coefficients, edge.left, edge.right, seen.coefficient)) {
+                see(tile, edge.a, seen.coefficient, seen.ax, seen.ay);
+                see(tile, edge.b, seen.coefficient, seen.bx, seen.by);
+                visitor.edges(seen);
+            }
+        }
+    }
+
+    /// From a face's plane: how often it counts for a point at this signed distance from it.
+    T coefficient_of(const Face& face, T distance) const {
+        const bool away = distance<-tolerance_, front = distance> tolerance_;
+        if (from_ == SilhouetteFrom::light_center) return away || front ? static_cast<T>(face.from_light) : T(0);
+        return away ? T(-1) : front && !face.solid ? T(1) : T(0);
+    }
+
+    void find_coefficients(const PointTile<T>& tile, const Face& face, Coefficients& c, std::size_t f) const {
+        const bool from_light = from_ == SilhouetteFrom::light_center;
+        const T middle = glm::dot(face.normal, tile.center - face.a);
+        const bool one_side = from_light ? !touches(tile, box_of(face)) : std::abs(middle) > slack(tile, face.a);
+        const bool before_all = face.depth_max < tile.box.min.z, before_none = face.depth_max >= tile.box.max.z;
+        c.uniform[f] = before_none || (before_all && one_side);
+        c.value[f] = before_none ? T(0) : from_light ? static_cast<T>(face.from_light) : coefficient_of(face, middle);
+        if (c.uniform[f]) return;
+        Values& lanes = c.lanes[f];
+        const T fixed = static_cast<T>(face.from_light), front_value = face.solid ? T(0) : T(1);
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            const T distance = face.normal.x * (tile.x[i] - face.a.x) + face.normal.y * (tile.y[i] - face.a.y) +
+                               face.normal.z * (tile.depth[i] - face.a.z);
+            const bool away = distance<-tolerance_, front = distance> tolerance_;
+            const T seen = away ? T(-1) : front ? front_value : T(0);
+            const T value = from_light ? (one_side || away || front ? fixed : T(0)) : seen;
+            lanes[i] = face.depth_max < tile.depth[i] ? value : T(0);
+        }
+    }
+    static Box3<T> box_of(const Face& face) { return extend(extend(extend(empty_box<T>(), face.a), face.b), face.c); }
+
+    /// Fills in how often an edge counts; false if it never does.
+    static bool is_on_silhouette(const PointTile<T>& tile, const Coefficients& c, std::size_t left, std::size_t right,
+                                 Values& coefficient) {
+        if (c.uniform[left] && c.uniform[right]) {
+            const T value = c.value[left] - c.value[right];
+            if (value == T(0)) return false;
+            for (std::size_t i = 0; i < tile.lanes; ++i) coefficient[i] = value;
+            return true;
+        }
+        if (c.uniform[left] || c.uniform[right]) {
+            const Values& lanes = c.uniform[left] ? c.lanes[right] : c.lanes[left];
+            const T sign = c.uniform[left] ? T(-1) : T(1), value = c.uniform[left] ? c.value[left] : -c.value[right];
+            for (std::size_t i = 0; i < tile.lanes; ++i) coefficient[i] = sign * lanes[i] + value;
+        } else {
+            for (std::size_t i = 0; i < tile.lanes; ++i) coefficient[i] = c.lanes[left][i] - c.lanes[right][i];
+        }
+        int any = 0;
+        for (std::size_t i = 0; i < tile.lanes; ++i) any |= static_cast<int>(coefficient[i] != T(0));
+        return any != 0;
+    }
+
+    /// Where a vertex lands; anywhere finite in lanes where the edge does not count.
+    static void see(const PointTile<T>& tile, const Vec3<T>& vertex, const Values& coefficient, Values& x, Values& y) {
+        const T vx = vertex.x, vy = vertex.y, vz = vertex.z;
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            const T px = tile.x[i], py = tile.y[i], p = tile.depth[i], w = p - vz;
+            const bool lands = (coefficient[i] != T(0)) & (w > T(0));  // no &&, which branches
+            const T grown = p / (lands ? w : p);
+            x[i] = px + (vx - px) * grown;
+            y[i] = py + (vy - py) * grown;
+        }
+    }
+
+    template <class Visitor>
+    void cut_face(const PointTile<T>& tile, const Face& face, Visitor& visitor) const {
+        const Vec3<T> loop[3] = {face.a, face.b, face.c};
+        const bool one_side = from_ == SilhouetteFrom::light_center && !touches(tile, box_of(face));
+        for (std::size_t i = 0; i < tile.count; ++i) {
+            const Vec3<T> point = tile[i];
+            if (!(face.depth_max >= point.z && face.depth_min < point.z)) continue;
+            const T value = one_side ? static_cast<T>(face.from_light)
+                                     : coefficient_of(face, glm::dot(face.normal, point - face.a));
+            if (value == T(0) || is_beside(loop, point, tile.light.max)) continue;
+            project_loop(loop, 3, point, tile.light,
+                         [&](const Vec2<T>& from, const Vec2<T>& to) { visitor.edge(i, from, to, value); });
+        }
+    }
+    /// Whether a triangle lies beyond one side of the pyramid.
+    static bool is_beside(const Vec3<T> (&loop)[3], const Vec3<T>& point, const Vec2<T>& half) {
+        int right = 0, left = 0, top = 0, bottom = 0;
+        for (const Vec3<T>& v : loop) {
+            right += (v.x - half.x) * point.z > v.z * (point.x - half.x);
+            left += (v.x + half.x) * point.z < v.z * (point.x + half.x);
+            top += (v.y - half.y) * point.z > v.z * (point.y - half.y);
+            bottom += (v.y + half.y) * point.z < v.z * (point.y + half.y);
+        }
+        return right == 3 || left == 3 || top == 3 || bottom == 3;
+    }
+
+    detail::WedgeTree<T> tree_;
+    SilhouetteFrom from_ = SilhouetteFrom::point;
+    T tolerance_ = T(0);
+};
+
+}  // namespace penumbra
