@@ -78,11 +78,11 @@ class WedgeIndex {
     using Values = typename PointTile<T>::Values;
 
     WedgeIndex() = default;
-    /// `surfaces`: what detail::lit_surface makes of each mesh. A face is on a point, and hides nothing from it, if its
+    /// `lit_meshes`: what detail::lit_mesh makes of each mesh. A face is on a point, and hides nothing from it, if its
     /// plane passes within `tolerance` of it.
-    WedgeIndex(const std::vector<detail::Surface<T>>& surfaces, SilhouetteFrom from, T tolerance)
+    WedgeIndex(const std::vector<detail::LitMesh<T>>& lit_meshes, SilhouetteFrom from, T tolerance)
         : from_(from), tolerance_(tolerance) {
-        detail::WedgeTreeBuilder<T>(surfaces, from, tree_);
+        detail::WedgeTreeBuilder<T>(lit_meshes, from, tree_);
     }
 
     bool empty() const { return tree_.nodes.empty(); }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>
-#include <penumbra/penumbra_wedge/surface.hpp>
 #include <vector>
 
 namespace penumbra::detail {
@@ -76,21 +76,21 @@ std::size_t split_in_halves(Item* items, std::size_t count) {
 template <class T>
 class WedgeTreeBuilder {
   public:
-    WedgeTreeBuilder(const std::vector<Surface<T>>& surfaces, SilhouetteFrom from, WedgeTree<T>& tree)
+    WedgeTreeBuilder(const std::vector<LitMesh<T>>& lit_meshes, SilhouetteFrom from, WedgeTree<T>& tree)
         : from_(from), tree_(tree) {
         std::vector<MeshItem> meshes;
-        for (const Surface<T>& surface : surfaces) {
+        for (const LitMesh<T>& lit : lit_meshes) {
             Box3<T> box = empty_box<T>();
-            for (const glm::uvec3& f : surface.faces)
-                for (int k = 0; k < 3; ++k) box = extend(box, surface.vertices[f[k]]);
-            if (!surface.pieces.empty()) meshes.push_back({&surface, box});
+            for (const glm::uvec3& f : lit.faces)
+                for (int k = 0; k < 3; ++k) box = extend(box, lit.vertices[f[k]]);
+            if (!lit.pieces.empty()) meshes.push_back({&lit, box});
         }
         if (!meshes.empty()) add_meshes(meshes.data(), meshes.size());
     }
 
   private:
     struct MeshItem {
-        const Surface<T>* surface;
+        const LitMesh<T>* lit;
         Box3<T> box;
     };
     struct PieceItem {
@@ -98,7 +98,7 @@ class WedgeTreeBuilder {
         Box3<T> box;
     };
     struct EdgeItem {
-        SurfaceEdge edge;
+        LitEdge edge;
         Box3<T> box;  ///< around its faces
     };
 
@@ -125,58 +125,58 @@ class WedgeTreeBuilder {
     }
 
     void add_meshes(MeshItem* meshes, std::size_t count) {
-        if (count == 1) return add_mesh(*meshes->surface);
+        if (count == 1) return add_mesh(*meshes->lit);
         add_node(box_of(meshes, count), [&](std::size_t) {
             add_halves(meshes, count, [&](MeshItem* half, std::size_t n) { add_meshes(half, n); });
         });
     }
-    void add_mesh(const Surface<T>& surface) {
-        faces_.assign(surface.faces.size(), {});
-        local_.assign(surface.faces.size(), 0);
-        owned_.assign(surface.faces.size(), false);
+    void add_mesh(const LitMesh<T>& lit) {
+        faces_.assign(lit.faces.size(), {});
+        local_.assign(lit.faces.size(), 0);
+        owned_.assign(lit.faces.size(), false);
         std::vector<PieceItem> pieces;
-        for (const Piece& piece : surface.pieces) {
+        for (const Piece& piece : lit.pieces) {
             Box3<T> box = empty_box<T>();
             for (const std::uint32_t face : piece.faces) {
-                faces_[face] = make_face(surface, piece, face);
+                faces_[face] = make_face(lit, piece, face);
                 box = join(box, face_box(face));
             }
             pieces.push_back({&piece, box});
         }
         const std::size_t root = tree_.nodes.size();
-        add_pieces(surface, pieces.data(), pieces.size());
+        add_pieces(lit, pieces.data(), pieces.size());
         tree_.nodes[root].mesh_root = true;
     }
-    void add_pieces(const Surface<T>& surface, PieceItem* pieces, std::size_t count) {
-        if (count == 1) return add_piece(surface, *pieces->piece);
+    void add_pieces(const LitMesh<T>& lit, PieceItem* pieces, std::size_t count) {
+        if (count == 1) return add_piece(lit, *pieces->piece);
         add_node(box_of(pieces, count), [&](std::size_t) {
-            add_halves(pieces, count, [&](PieceItem* half, std::size_t n) { add_pieces(surface, half, n); });
+            add_halves(pieces, count, [&](PieceItem* half, std::size_t n) { add_pieces(lit, half, n); });
         });
     }
-    void add_piece(const Surface<T>& surface, const Piece& piece) {
+    void add_piece(const LitMesh<T>& lit, const Piece& piece) {
         std::vector<EdgeItem> edges;
         edges.reserve(piece.edges.size());
-        for (const SurfaceEdge& edge : piece.edges) {
-            Box3<T> box = extend(extend(empty_box<T>(), surface.vertices[edge.a]), surface.vertices[edge.b]);
+        for (const LitEdge& edge : piece.edges) {
+            Box3<T> box = extend(extend(empty_box<T>(), lit.vertices[edge.a]), lit.vertices[edge.b]);
             for (const std::uint32_t face : {edge.left, edge.right})
                 if (face < cap_face) box = join(box, face_box(face));
             edges.push_back({edge, box});
         }
         const std::size_t root = tree_.nodes.size();
-        add_edges(surface, piece, edges.data(), edges.size());
+        add_edges(lit, piece, edges.data(), edges.size());
         tree_.nodes[root].piece_root = true;
     }
-    void add_edges(const Surface<T>& surface, const Piece& piece, EdgeItem* edges, std::size_t count) {
+    void add_edges(const LitMesh<T>& lit, const Piece& piece, EdgeItem* edges, std::size_t count) {
         add_node(box_of(edges, count), [&](std::size_t at) {
             bound(piece, edges, count, tree_.nodes[at]);
             if (count <= WedgeTree<T>::leaf_edges)
-                fill_leaf(surface, edges, count, tree_.nodes[at]);
+                fill_leaf(lit, edges, count, tree_.nodes[at]);
             else
-                add_halves(edges, count, [&](EdgeItem* half, std::size_t n) { add_edges(surface, piece, half, n); });
+                add_halves(edges, count, [&](EdgeItem* half, std::size_t n) { add_edges(lit, piece, half, n); });
         });
     }
 
-    void fill_leaf(const Surface<T>& surface, const EdgeItem* edges, std::size_t count, WedgeNode<T>& node) {
+    void fill_leaf(const LitMesh<T>& lit, const EdgeItem* edges, std::size_t count, WedgeNode<T>& node) {
         std::vector<std::uint32_t> own, others;
         for (std::size_t i = 0; i < count; ++i) {
             for (const std::uint32_t face : {edges[i].edge.left, edges[i].edge.right}) {
@@ -200,20 +200,20 @@ class WedgeTreeBuilder {
             return face == no_face ? std::uint16_t(0) : face == cap_face ? std::uint16_t(1) : local_[face];
         };
         for (std::size_t i = 0; i < count; ++i) {
-            const SurfaceEdge& e = edges[i].edge;
-            tree_.edges.push_back({surface.vertices[e.a], surface.vertices[e.b], local(e.left), local(e.right)});
+            const LitEdge& e = edges[i].edge;
+            tree_.edges.push_back({lit.vertices[e.a], lit.vertices[e.b], local(e.left), local(e.right)});
         }
         for (const std::uint32_t face : own) local_[face] = 0;
     }
 
     /// The light's centre is the origin. A sheet's face that it sees edge-on counts as if it saw the front.
-    static WedgeFace<T> make_face(const Surface<T>& surface, const Piece& piece, std::uint32_t face) {
-        const glm::uvec3& f = surface.faces[face];
-        const Vec3<double> normal = glm::normalize(surface.normal(face));
-        const bool away = glm::dot(normal, surface.vertex(f.x)) > 0.0;
+    static WedgeFace<T> make_face(const LitMesh<T>& lit, const Piece& piece, std::uint32_t face) {
+        const glm::uvec3& f = lit.faces[face];
+        const Vec3<double> normal = glm::normalize(lit.normal(face));
+        const bool away = glm::dot(normal, lit.vertex(f.x)) > 0.0;
         WedgeFace<T> result;
         result.normal = Vec3<T>(normal);
-        result.a = surface.vertices[f.x], result.b = surface.vertices[f.y], result.c = surface.vertices[f.z];
+        result.a = lit.vertices[f.x], result.b = lit.vertices[f.y], result.c = lit.vertices[f.z];
         result.depth_min = std::min({result.a.z, result.b.z, result.c.z});
         result.depth_max = std::max({result.a.z, result.b.z, result.c.z});
         result.solid = piece.solid;

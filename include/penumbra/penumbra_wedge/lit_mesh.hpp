@@ -23,21 +23,21 @@ namespace penumbra::detail {
 inline constexpr std::uint32_t no_face = 0xffffffffU, cap_face = 0xfffffffeU;
 
 /// An edge and one face on each side: `left` runs along it from a to b, `right` from b to a.
-struct SurfaceEdge {
+struct LitEdge {
     std::uint32_t a, b, left, right;
 };
 
 /// Faces that hang together by edges.
 struct Piece {
     std::vector<std::uint32_t> faces;
-    std::vector<SurfaceEdge> edges;
+    std::vector<LitEdge> edges;
     bool solid = false;
     bool simple = false;  ///< covers no part of the light twice, seen from anywhere: a convex solid, a single face
 };
 
 /// A mesh in light space, scaled; solids wound so that the light is outside.
 template <class T>
-struct Surface {
+struct LitMesh {
     std::vector<Vec3<T>> vertices;
     std::vector<glm::uvec3> faces;
     std::vector<Piece> pieces;
@@ -49,28 +49,11 @@ struct Surface {
     }
 };
 
-/// For each vertex the first one at the same place.
-template <class T>
-std::vector<std::uint32_t> welded(const std::vector<Vec3<T>>& positions) {
-    std::vector<std::uint32_t> order(positions.size()), first(positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto before = [&](std::uint32_t i, std::uint32_t k) {
-        const Vec3<T>&a = positions[i], &b = positions[k];
-        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z != b.z ? a.z < b.z : i < k;
-    };
-    std::sort(order.begin(), order.end(), before);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
-    }
-    return first;
-}
-
 /// Cuts faces at depth 0 and keeps what lies on the lit side.
 template <class T>
 class PlaneCutter {
   public:
-    explicit PlaneCutter(Surface<T>& surface) : surface_(surface) {}
+    explicit PlaneCutter(LitMesh<T>& mesh) : mesh_(mesh) {}
 
     void add(const glm::uvec3& face) {
         std::uint32_t kept[4];
@@ -85,42 +68,42 @@ class PlaneCutter {
     }
 
   private:
-    T depth(std::uint32_t vertex) const { return surface_.vertices[vertex].z; }
+    T depth(std::uint32_t vertex) const { return mesh_.vertices[vertex].z; }
     void push(const glm::uvec3& face) {
         const bool lit = depth(face.x) > T(0) || depth(face.y) > T(0) || depth(face.z) > T(0);
-        surface_.faces.push_back(face);
-        const Vec3<double> normal = surface_.normal(static_cast<std::uint32_t>(surface_.faces.size() - 1));
-        if (!lit || !(glm::dot(normal, normal) > 0.0)) surface_.faces.pop_back();
+        mesh_.faces.push_back(face);
+        const Vec3<double> normal = mesh_.normal(static_cast<std::uint32_t>(mesh_.faces.size() - 1));
+        if (!lit || !(glm::dot(normal, normal) > 0.0)) mesh_.faces.pop_back();
     }
     /// The vertex where an edge meets the plane, the same for all its faces.
     std::uint32_t between(std::uint32_t a, std::uint32_t b) {
         const std::uint64_t key = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-        const auto [entry, is_new] = cuts_.try_emplace(key, static_cast<std::uint32_t>(surface_.vertices.size()));
+        const auto [entry, is_new] = cuts_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
         if (is_new) {
-            const Vec3<double> p = surface_.vertex(std::min(a, b)), q = surface_.vertex(std::max(a, b));
+            const Vec3<double> p = mesh_.vertex(std::min(a, b)), q = mesh_.vertex(std::max(a, b));
             Vec3<T> cut(p + (q - p) * (p.z / (p.z - q.z)));
             cut.z = T(0);
-            surface_.vertices.push_back(cut);
+            mesh_.vertices.push_back(cut);
         }
         return entry->second;
     }
 
-    Surface<T>& surface_;
+    LitMesh<T>& mesh_;
     std::unordered_map<std::uint64_t, std::uint32_t> cuts_;
 };
 
 /// Every edge with its faces in pairs that run along it both ways; what is left over has no_face beside it.
 template <class T>
-std::vector<SurfaceEdge> paired_edges(const Surface<T>& surface) {
+std::vector<LitEdge> paired_edges(const LitMesh<T>& mesh) {
     struct Side {
         std::uint32_t a, b, face;
         bool forward;
     };
     std::vector<Side> sides;
-    sides.reserve(surface.faces.size() * 3);
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    sides.reserve(mesh.faces.size() * 3);
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
         for (int k = 0; k < 3; ++k) {
-            const std::uint32_t from = surface.faces[f][k], to = surface.faces[f][(k + 1) % 3];
+            const std::uint32_t from = mesh.faces[f][k], to = mesh.faces[f][(k + 1) % 3];
             if (from != to) sides.push_back({std::min(from, to), std::max(from, to), f, from < to});
         }
     }
@@ -129,7 +112,7 @@ std::vector<SurfaceEdge> paired_edges(const Surface<T>& surface) {
         if (x.b != y.b) return x.b < y.b;
         return x.forward != y.forward ? x.forward : x.face < y.face;
     });
-    std::vector<SurfaceEdge> edges;
+    std::vector<LitEdge> edges;
     for (std::size_t first = 0; first < sides.size();) {
         std::size_t middle = first;
         const auto same = [&](std::size_t i) {
@@ -148,9 +131,9 @@ std::vector<SurfaceEdge> paired_edges(const Surface<T>& surface) {
 
 /// Splits faces and edges into pieces.
 template <class T>
-void find_pieces(Surface<T>& surface) {
-    const std::vector<SurfaceEdge> edges = paired_edges(surface);
-    std::vector<std::uint32_t> parent(surface.faces.size());
+void find_pieces(LitMesh<T>& mesh) {
+    const std::vector<LitEdge> edges = paired_edges(mesh);
+    std::vector<std::uint32_t> parent(mesh.faces.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t f) {
         while (parent[f] != f) f = parent[f] = parent[parent[f]];
@@ -163,34 +146,34 @@ void find_pieces(Surface<T>& surface) {
         if (i > 0 && edges[i - 1].a == edges[i].a && edges[i - 1].b == edges[i].b)
             parent[root(face)] = root(edges[i - 1].left != no_face ? edges[i - 1].left : edges[i - 1].right);
     }
-    std::vector<std::uint32_t> piece_of(surface.faces.size(), no_face);
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    std::vector<std::uint32_t> piece_of(mesh.faces.size(), no_face);
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
         std::uint32_t& piece = piece_of[root(f)];
         if (piece == no_face) {
-            piece = static_cast<std::uint32_t>(surface.pieces.size());
-            surface.pieces.emplace_back();
+            piece = static_cast<std::uint32_t>(mesh.pieces.size());
+            mesh.pieces.emplace_back();
         }
-        surface.pieces[piece].faces.push_back(f);
+        mesh.pieces[piece].faces.push_back(f);
     }
-    for (const SurfaceEdge& edge : edges)
-        surface.pieces[piece_of[root(edge.left != no_face ? edge.left : edge.right)]].edges.push_back(edge);
+    for (const LitEdge& edge : edges)
+        mesh.pieces[piece_of[root(edge.left != no_face ? edge.left : edge.right)]].edges.push_back(edge);
 }
 
-/// Whether no edge of a solid is a valley, and it has one border surface without handles.
+/// Whether no edge of a solid is a valley, and it has one surface without handles.
 template <class T>
-bool is_convex(const Surface<T>& surface, const Piece& piece, T tolerance) {
+bool is_convex(const LitMesh<T>& mesh, const Piece& piece, T tolerance) {
     std::vector<std::uint32_t> used;
     std::size_t caps = 0;
-    for (const SurfaceEdge& edge : piece.edges) {
+    for (const LitEdge& edge : piece.edges) {
         used.push_back(edge.a), used.push_back(edge.b);
         if (edge.left == cap_face || edge.right == cap_face) {
             ++caps;
             continue;
         }
-        const Vec3<double> normal = surface.normal(edge.left), at = surface.vertex(edge.a);
-        const glm::uvec3& other = surface.faces[edge.right];
+        const Vec3<double> normal = mesh.normal(edge.left), at = mesh.vertex(edge.a);
+        const glm::uvec3& other = mesh.faces[edge.right];
         for (int k = 0; k < 3; ++k)
-            if (glm::dot(normal, surface.vertex(other[k]) - at) > static_cast<double>(tolerance) * glm::length(normal))
+            if (glm::dot(normal, mesh.vertex(other[k]) - at) > static_cast<double>(tolerance) * glm::length(normal))
                 return false;
     }
     std::sort(used.begin(), used.end());
@@ -201,12 +184,12 @@ bool is_convex(const Surface<T>& surface, const Piece& piece, T tolerance) {
 
 /// Marks solids, and turns those around whose inside holds the light or that are wound inside out.
 template <class T>
-void orient(Surface<T>& surface, Piece& piece, T tolerance) {
-    const auto on_plane = [&](const SurfaceEdge& e) {
-        return surface.vertices[e.a].z == T(0) && surface.vertices[e.b].z == T(0);
+void orient(LitMesh<T>& mesh, Piece& piece, T tolerance) {
+    const auto on_plane = [&](const LitEdge& e) {
+        return mesh.vertices[e.a].z == T(0) && mesh.vertices[e.b].z == T(0);
     };
     piece.solid = true;
-    for (SurfaceEdge& edge : piece.edges) {
+    for (LitEdge& edge : piece.edges) {
         if (edge.left != no_face && edge.right != no_face) continue;
         piece.solid = piece.solid && on_plane(edge);
     }
@@ -215,8 +198,8 @@ void orient(Surface<T>& surface, Piece& piece, T tolerance) {
     // from the light's centre, in whose plane caps lie and count for nothing
     double volume = 0.0, angle = 0.0;
     for (const std::uint32_t face : piece.faces) {
-        const glm::uvec3& f = surface.faces[face];
-        const Vec3<double> a = surface.vertex(f.x), b = surface.vertex(f.y), c = surface.vertex(f.z);
+        const glm::uvec3& f = mesh.faces[face];
+        const Vec3<double> a = mesh.vertex(f.x), b = mesh.vertex(f.y), c = mesh.vertex(f.z);
         const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
         const double triple = glm::dot(a, glm::cross(b, c));
         volume += triple;
@@ -225,32 +208,32 @@ void orient(Surface<T>& surface, Piece& piece, T tolerance) {
     }
     const bool inside = std::abs(angle) > pi<double>;  // 2π of a solid cut open at the light, else 0
     const bool turn = (volume < 0.0) != inside;
-    for (SurfaceEdge& edge : piece.edges) {
+    for (LitEdge& edge : piece.edges) {
         if (!inside && edge.left == no_face) edge.left = cap_face;
         if (!inside && edge.right == no_face) edge.right = cap_face;
         if (turn) std::swap(edge.left, edge.right);
     }
     if (turn)
-        for (const std::uint32_t face : piece.faces) std::swap(surface.faces[face].y, surface.faces[face].z);
-    piece.simple = !inside && is_convex(surface, piece, tolerance);
+        for (const std::uint32_t face : piece.faces) std::swap(mesh.faces[face].y, mesh.faces[face].z);
+    piece.simple = !inside && is_convex(mesh, piece, tolerance);
 }
 
 /// The lit side of a mesh: world space to light space, times `scale`, a power of two. `tolerance`, in scaled units, is
 /// how far a vertex may stand out of a convex solid.
 template <class T>
-Surface<T> lit_surface(const Mesh<T>& mesh, const LightFrame<T>& frame, T scale, T tolerance) {
-    Surface<T> surface;
-    surface.vertices.reserve(mesh.positions.size());
+LitMesh<T> lit_mesh(const Mesh<T>& mesh, const LightFrame<T>& frame, T scale, T tolerance) {
+    const Mesh<T> welded = weld(mesh);
+    LitMesh<T> lit;
+    lit.vertices.reserve(welded.positions.size());
     const LightFrame<double> exact{Vec3<double>(frame.origin), Vec3<double>(frame.u), Vec3<double>(frame.v),
                                    Vec3<double>(frame.normal)};
-    for (const Vec3<T>& p : mesh.positions)
-        surface.vertices.push_back(Vec3<T>(exact.to_light(Vec3<double>(p)) * static_cast<double>(scale)));
-    const std::vector<std::uint32_t> first = welded(mesh.positions);
-    PlaneCutter<T> cutter(surface);
-    for (const glm::uvec3& t : mesh.triangles) cutter.add(glm::uvec3(first[t.x], first[t.y], first[t.z]));
-    find_pieces(surface);
-    for (Piece& piece : surface.pieces) orient(surface, piece, tolerance);
-    return surface;
+    for (const Vec3<T>& p : welded.positions)
+        lit.vertices.push_back(Vec3<T>(exact.to_light(Vec3<double>(p)) * static_cast<double>(scale)));
+    PlaneCutter<T> cutter(lit);
+    for (const glm::uvec3& face : welded.triangles) cutter.add(face);
+    find_pieces(lit);
+    for (Piece& piece : lit.pieces) orient(lit, piece, tolerance);
+    return lit;
 }
 
 }  // namespace penumbra::detail
