@@ -81,7 +81,6 @@ bool same(const RadialPart<T>& a, const RadialPart<T>& b) {
 
 template <class T>
 void check_invariants(const RadialPart<T>& part) {
-    const T epsilon = std::numeric_limits<T>::epsilon();
     CHECK(part.area >= T(0));
     CHECK(part.area <= area(part.rect));
     if (part.area == T(0)) {
@@ -92,11 +91,10 @@ void check_invariants(const RadialPart<T>& part) {
     CHECK(part.rect.min.y >= T(0));
     CHECK(part.rect.max.x <= T(1));
     CHECK(part.rect.max.y <= T(1));
-    const Vec2<T> centre = part.moment / part.area;  // a rounding
-    CHECK(centre.x >= part.rect.min.x * (T(1) - epsilon));
-    CHECK(centre.y >= part.rect.min.y * (T(1) - epsilon));
-    CHECK(centre.x <= part.rect.max.x * (T(1) + epsilon));
-    CHECK(centre.y <= part.rect.max.y * (T(1) + epsilon));
+    CHECK(part.moment.x >= part.area * part.rect.min.x);
+    CHECK(part.moment.y >= part.area * part.rect.min.y);
+    CHECK(part.moment.x <= part.area * part.rect.max.x);
+    CHECK(part.moment.y <= part.area * part.rect.max.y);
 }
 
 template <class T>
@@ -204,4 +202,186 @@ TEST_CASE_TEMPLATE("several loops in any order, in pieces, reversed with weight 
         CHECK(part_twice.rect.min == rect.min);
         CHECK(part_twice.rect.max == rect.max);
     }
+}
+
+TEST_CASE_TEMPLATE("a corner that is enclosed without an edge near it is in the rectangle", T, float, double) {
+    const Rect2<T> box{Vec2<T>(T(0), T(0)), Vec2<T>(T(1), T(1))};
+    // the lower half, by one edge inside: the paper's rectangle would be flat
+    const RadialPart<T> lower = part_of<T>({{T(-9), T(-9)}, {T(9), T(-9)}, {T(9), T(0.5)}, {T(-9), T(0.5)}}, box);
+    CHECK(lower.rect.min == Vec2<T>(T(0), T(0)));
+    CHECK(lower.rect.max == Vec2<T>(T(1), T(0.5)));
+    CHECK(lower.area == doctest::Approx(0.5).epsilon(1e-6));
+    CHECK(lower.moment.y == doctest::Approx(0.125).epsilon(1e-6));
+    // all but a cut corner: the edge's own rectangle is the corner
+    const RadialPart<T> most =
+        part_of<T>({{T(-9), T(-9)}, {T(9), T(-9)}, {T(9), T(-7.25)}, {T(-7.25), T(9)}, {T(-9), T(9)}}, box);
+    CHECK(most.rect.min == Vec2<T>(T(0), T(0)));
+    CHECK(most.rect.max == Vec2<T>(T(1), T(1)));
+    CHECK(most.area == doctest::Approx(1 - 0.125 * 0.25).epsilon(1e-6));
+    // each corner alone
+    for (int corner = 0; corner < 4; ++corner) {
+        const T x = (corner & 1) != 0 ? T(1) : T(0), y = (corner & 2) != 0 ? T(1) : T(0);
+        const RadialPart<T> part = part_of<T>({{x - T(0.25), y - T(0.25)},
+                                               {x + T(0.25), y - T(0.25)},
+                                               {x + T(0.25), y + T(0.25)},
+                                               {x - T(0.25), y + T(0.25)}},
+                                              box);
+        CHECK(part.rect.min == Vec2<T>(x * T(0.75), y * T(0.75)));
+        CHECK(part.rect.max == Vec2<T>(T(0.25) + x * T(0.75), T(0.25) + y * T(0.75)));
+        CHECK(part.area == doctest::Approx(0.0625).epsilon(1e-6));
+    }
+}
+
+TEST_CASE_TEMPLATE("all and nothing are exact, also if edges run along the border give or take a rounding", T, float,
+                   double) {
+    test::Random random(3);
+    const T epsilon = std::numeric_limits<T>::epsilon();
+    for (int i = 0; i < 1000; ++i) {
+        const Rect2<T> light = light_box<T>();
+        const auto near = [&](T x) { return x + random.in(T(-2), T(2)) * epsilon; };
+        const Loop<T> around{{near(light.min.x), near(light.min.y)},
+                             {near(light.max.x), near(light.min.y)},
+                             {near(light.max.x), near(light.max.y)},
+                             {near(light.min.x), near(light.max.y)}};
+        for (int k = 0; k < 4; ++k) CHECK(same(part_of(around, quadrant(light, k)), full_part<T>()));
+        CHECK(same(part_of(around, light), full_part<T>()));
+        // the left half: all of the left quadrants, nothing of the right ones
+        const T zero = random.in(T(-2), T(2)) * epsilon;
+        const Loop<T> left{around[0], {zero, around[0].y}, {zero, around[2].y}, around[3]};
+        for (int k = 0; k < 4; ++k)
+            CHECK(same(part_of(left, quadrant(light, k)), (k & 1) != 0 ? empty_part<T>() : full_part<T>()));
+    }
+}
+
+TEST_CASE_TEMPLATE("what a cut leaves on the border does not widen the rectangle", T, float, double) {
+    // A fork whose prongs reach into the light from below, cut by the light's border: its pieces stay connected there.
+    const Rect2<T> light{Vec2<T>(T(-1), T(-1)), Vec2<T>(T(1), T(1))};
+    const Loop<T> fork{{T(-0.75), T(-1)}, {T(-0.5), T(-1)}, {T(-0.5), T(-0.75)}, {T(-0.75), T(-0.75)},
+                       {T(-0.75), T(-1)}, {T(0.5), T(-1)},  {T(0.75), T(-1)},    {T(0.75), T(-0.5)},
+                       {T(0.5), T(-0.5)}, {T(0.5), T(-1)},  {T(1), T(-1)},       {T(1), T(1)},
+                       {T(1), T(-1)}};
+    const RadialPart<T> left = part_of(fork, quadrant(light, 0)), right = part_of(fork, quadrant(light, 1));
+    CHECK(left.rect.min == Vec2<T>(T(0.25), T(0)));
+    CHECK(left.rect.max == Vec2<T>(T(0.5), T(0.25)));
+    CHECK(right.rect.min == Vec2<T>(T(0.5), T(0)));
+    CHECK(right.rect.max == Vec2<T>(T(0.75), T(0.5)));
+    CHECK(same(part_of(fork, quadrant(light, 2)), empty_part<T>()));
+    CHECK(same(part_of(fork, quadrant(light, 3)), empty_part<T>()));
+}
+
+TEST_CASE_TEMPLATE("edges that are cut to the columns of the light give the same part", T, float, double) {
+    test::Random random(4);
+    const T epsilon = std::numeric_limits<T>::epsilon();
+    for (int i = 0; i < 5000; ++i) {
+        const Rect2<T> light = light_box<T>(), box = quadrant(light, random.whole(0, 3));
+        const Loop<T> loop = random_convex<T>(random, 1.5, 1.5);
+        RadialPartBuilder<T> whole(box), cut(box);
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            Vec2<T> a = loop[k], b = loop[(k + 1) % loop.size()];
+            whole.add(a, b, 1);
+            const bool swap = a.x > b.x;
+            if (swap) std::swap(a, b);
+            if (b.x < light.min.x || a.x > light.max.x) continue;
+            const T slope = a.x < b.x ? (b.y - a.y) / (b.x - a.x) : T(0);
+            const auto at = [&](T x) {  // a rounding off the column now and then
+                return Vec2<T>(x * (T(1) + random.in(T(-1), T(1)) * epsilon), a.y + (x - a.x) * slope);
+            };
+            const Vec2<T> from = a.x < light.min.x ? at(light.min.x) : a, to = b.x > light.max.x ? at(light.max.x) : b;
+            if (swap)
+                cut.add(to, from, 1);
+            else
+                cut.add(from, to, 1);
+        }
+        const RadialPart<T> expected = whole.finish(), part = cut.finish();
+        CAPTURE(i);
+        CHECK(std::abs(part.area - expected.area) <= 128 * epsilon);
+        if (expected.area < T(1e-4)) continue;
+        // Where an edge leaves the rectangle upwards at a small angle, a rounding goes a long way.
+        CHECK(std::abs(part.rect.min.x - expected.rect.min.x) <= T(1e4) * epsilon);
+        CHECK(std::abs(part.rect.min.y - expected.rect.min.y) <= T(1e4) * epsilon);
+        CHECK(std::abs(part.rect.max.x - expected.rect.max.x) <= T(1e4) * epsilon);
+        CHECK(std::abs(part.rect.max.y - expected.rect.max.y) <= T(1e4) * epsilon);
+    }
+}
+
+TEST_CASE_TEMPLATE("ends at 1e5 and 1e18 leave what is near", T, float, double) {
+    const Rect2<T> box{Vec2<T>(T(0), T(0)), Vec2<T>(T(1), T(1))};
+    for (const T far : {T(1e5), T(1e18)}) {
+        // right and below of a line from (0.25, 0.25) straight up, and of one from there to the left
+        const RadialPart<T> part = part_of<T>(
+            {{T(0.25), T(0.25)}, {-far, T(0.25)}, {-far, -far}, {far, -far}, {far, far}, {T(0.25), far}}, box);
+        CAPTURE(far);
+        CHECK(part.area == doctest::Approx(1 - 0.75 * 0.25).epsilon(1e-5));
+        CHECK(part.rect.min == Vec2<T>(T(0), T(0)));
+        CHECK(part.rect.max == Vec2<T>(T(1), T(1)));
+        // a wedge between two lines from one corner inside
+        const RadialPart<T> wedge = part_of<T>({{T(0.5), T(0.5)}, {far, far / 2}, {far, far}}, box);
+        CHECK(wedge.rect.min.x == T(0.5));
+        CHECK(wedge.rect.max == Vec2<T>(T(1), T(1)));
+        CHECK(wedge.area == doctest::Approx(0.0625).epsilon(1e-4));
+    }
+}
+
+TEST_CASE_TEMPLATE("degenerate edges and boxes give nothing; clockwise loops neither", T, float, double) {
+    const Rect2<T> box{Vec2<T>(T(0), T(0)), Vec2<T>(T(1), T(1))};
+    const Loop<T> square{{T(0.25), T(0.25)}, {T(0.75), T(0.25)}, {T(0.75), T(0.75)}, {T(0.25), T(0.75)}};
+    CHECK(same(RadialPartBuilder<T>(box).finish(), empty_part<T>()));
+    CHECK(same(part_of(Loop<T>(square.rbegin(), square.rend()), box), empty_part<T>()));
+    CHECK(same(part_of<T>({{T(0.5), T(0.5)}}, box), empty_part<T>()));                      // no length
+    CHECK(same(part_of<T>({{T(0.25), T(0.5)}, {T(0.75), T(0.5)}}, box), empty_part<T>()));  // there and back
+    for (const Vec2<T> size : {Vec2<T>(T(0), T(1)), Vec2<T>(T(1), T(0)), Vec2<T>(T(0), T(0))})
+        CHECK(same(part_of(square, {Vec2<T>(T(0.5), T(0.5)), Vec2<T>(T(0.5), T(0.5)) + size}), empty_part<T>()));
+    // loops around the part, clockwise and not, leave what the others wind
+    RadialPartBuilder<T> builder(box);
+    for (int k = 0; k < 4; ++k) {
+        const Vec2<T> a = square[static_cast<std::size_t>(k)], b = square[static_cast<std::size_t>((k + 1) % 4)];
+        const Vec2<T> middle(T(0.5), T(0.5));
+        builder.add(middle + (a - middle) * T(8), middle + (b - middle) * T(8), 1);
+        builder.add(a, b, -1);
+    }
+    const RadialPart<T> hole = builder.finish();
+    CHECK(hole.area == doctest::Approx(0.75).epsilon(1e-6));
+    CHECK(hole.rect.min == Vec2<T>(T(0), T(0)));
+    CHECK(hole.rect.max == Vec2<T>(T(1), T(1)));
+}
+
+TEST_CASE_TEMPLATE("scaling everything by a power of two changes no bit", T, float, double) {
+    test::Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+        const Rect2<T> box = quadrant(light_box<T>(), random.whole(0, 3));
+        Loop<T> loop = random_convex<T>(random, 1.2, 1);
+        const RadialPart<T> part = part_of(loop, box);
+        const T scale = exp2_int<T>(random.whole(-20, 20));
+        for (Vec2<T>& v : loop) v *= scale;
+        CHECK(same(part_of(loop, {box.min * scale, box.max * scale}), part));
+    }
+}
+
+TEST_CASE_TEMPLATE("valid_part makes a part of any finite numbers and leaves parts as they are", T, float, double) {
+    test::Random random(6);
+    int parts = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const auto number = [&] {
+            const T special[] = {T(0),
+                                 T(1),
+                                 T(-1),
+                                 std::numeric_limits<T>::min(),
+                                 std::numeric_limits<T>::max(),
+                                 -std::numeric_limits<T>::max(),
+                                 T(1e-30),
+                                 T(0.5)};
+            return random.whole(0, 2) == 0 ? special[random.whole(0, 7)] : random.in(T(-0.5), T(1.5));
+        };
+        RadialPart<T> garbage;
+        garbage.area = number() * random.in(T(0), T(1));
+        for (Vec2<T>* v : {&garbage.moment, &garbage.rect.min, &garbage.rect.max}) v->x = number(), v->y = number();
+        const RadialPart<T> part = valid_part(garbage);
+        CAPTURE(i);
+        check_invariants(part);
+        CHECK(same(valid_part(part), part));
+        parts += part.area > T(0);
+    }
+    CHECK(parts > 5000);
+    CHECK(same(valid_part(full_part<T>()), full_part<T>()));
+    CHECK(same(valid_part(empty_part<T>()), empty_part<T>()));
 }

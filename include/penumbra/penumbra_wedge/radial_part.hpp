@@ -36,15 +36,15 @@ RadialPart<T> full_part() {
 }
 
 /// The part with what rounding, packing or any finite numbers violate put right: rect within [0, 1]², 0 ≤ area ≤
-/// |rect| ≤ 1, moment / area in rect; empty_part() for area ≤ 0 or a rectangle without area. Exact where nothing is
-/// violated.
+/// |rect| ≤ 1, moment / area in rect; empty_part() where the area is less than the smallest normal number, which
+/// drivers flush. Exact where nothing is violated.
 template <class T>
 RadialPart<T> valid_part(const RadialPart<T>& part) {
     RadialPart<T> result;
     result.rect.min = Vec2<T>(saturate(part.rect.min.x), saturate(part.rect.min.y));
     result.rect.max = Vec2<T>(saturate(part.rect.max.x), saturate(part.rect.max.y));
     result.area = clamp(part.area, T(0), area(result.rect));
-    if (!(result.area > T(0))) return empty_part<T>();
+    if (!(result.area >= std::numeric_limits<T>::min())) return empty_part<T>();
     result.moment.x = clamp(part.moment.x, result.area * result.rect.min.x, result.area * result.rect.max.x);
     result.moment.y = clamp(part.moment.y, result.area * result.rect.min.y, result.area * result.rect.max.y);
     return result;
