@@ -15,5 +15,15 @@
 #include <penumbra/occlusion_texture/slice_camera.hpp>
 #include <penumbra/occlusion_texture/slices.hpp>
 #include <penumbra/occlusion_texture/summed_area.hpp>
+#include <penumbra/penumbra_wedge/bitmask.hpp>
+#include <penumbra/penumbra_wedge/blending.hpp>
+#include <penumbra/penumbra_wedge/lit_mesh.hpp>
+#include <penumbra/penumbra_wedge/mask_blending.hpp>
+#include <penumbra/penumbra_wedge/options.hpp>
+#include <penumbra/penumbra_wedge/shadow.hpp>
 #include <penumbra/penumbra_wedge/silhouette.hpp>
+#include <penumbra/penumbra_wedge/wedge.hpp>
+#include <penumbra/penumbra_wedge/tile_sums.hpp>
+#include <penumbra/penumbra_wedge/wedge_index.hpp>
+#include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <penumbra/raster.hpp>

@@ -38,8 +38,14 @@
     template class MipMap<T>;                                                                                    \
     template class NBuffer<T>;                                                                                   \
     template class OcclusionTextureShadow<T>;                                                                    \
+    template class PenumbraWedgeShadow<T>;                                                                       \
     template Vec3<T> face_normal(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&);                                \
     template T silhouette_tolerance(const Box3<T>&);                                                             \
+    template Wedge<T> wedge(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&);                                     \
+    template HalfWedge<T> half_wedge(const Wedge<T>&, WedgeHalf);                                                \
+    template bool contains(const Wedge<T>&, const Vec3<T>&);                                                     \
+    template bool contains(const HalfWedge<T>&, const Vec3<T>&);                                                 \
+    template Vec3<T> wedge_vertex(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&, const Box3<T>&, int);          \
     template int face_winding(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T, Surface);                       \
     template std::vector<SilhouetteEdge> silhouette(const Mesh<T>&, const EdgeAdjacency&, const Vec3<T>&, Viewer);
 

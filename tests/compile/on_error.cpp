@@ -34,6 +34,13 @@ int main() {
     expect(last_error.find("options.slices = 0") != std::string::npos, "options are named");
     expect(no_slices.visibility({0, 0, 0}) == 1.0F, "no slices: fully visible");
 
+    PenumbraWedgeOptions wedge_options;
+    wedge_options.bitmask_size = 5;
+    expect(PenumbraWedgeShadow<float>({quad}, light).visibility({0, 0, 0}) == 0.0F, "wedges are dark below, too");
+    expect(PenumbraWedgeShadow<float>({quad}, light, wedge_options).visibility({0, 0, 0}) == 1.0F,
+           "no such masks: visible");
+    expect(last_error.find("options.bitmask_size = 5") != std::string::npos, "their options are named");
+
     quad.triangles[1].y = 7;
     const OcclusionTextureShadow<float> no_vertex({quad}, light);
     expect(last_error.find("casters[0].triangles[1] uses index 7") != std::string::npos, "casters are named");

@@ -218,6 +218,15 @@ void orient(LitMesh<T>& mesh, Piece& piece, T tolerance) {
     piece.simple = !inside && is_convex(mesh, piece, tolerance);
 }
 
+/// World space to light space, times `scale`, a power of two. In double: one rounding, so that points on a caster stay
+/// on it.
+template <class T>
+Vec3<T> to_scaled_light(const LightFrame<T>& frame, const Vec3<T>& point_ws, T scale) {
+    const LightFrame<double> exact{Vec3<double>(frame.origin), Vec3<double>(frame.u), Vec3<double>(frame.v),
+                                   Vec3<double>(frame.normal)};
+    return Vec3<T>(exact.to_light(Vec3<double>(point_ws)) * static_cast<double>(scale));
+}
+
 /// The lit side of a mesh: world space to light space, times `scale`, a power of two. `tolerance`, in scaled units, is
 /// how far a vertex may stand out of a convex solid.
 template <class T>
@@ -225,10 +234,7 @@ LitMesh<T> lit_mesh(const Mesh<T>& mesh, const LightFrame<T>& frame, T scale, T 
     const Mesh<T> welded = weld(mesh);
     LitMesh<T> lit;
     lit.vertices.reserve(welded.positions.size());
-    const LightFrame<double> exact{Vec3<double>(frame.origin), Vec3<double>(frame.u), Vec3<double>(frame.v),
-                                   Vec3<double>(frame.normal)};
-    for (const Vec3<T>& p : welded.positions)
-        lit.vertices.push_back(Vec3<T>(exact.to_light(Vec3<double>(p)) * static_cast<double>(scale)));
+    for (const Vec3<T>& p : welded.positions) lit.vertices.push_back(to_scaled_light(frame, p, scale));
     PlaneCutter<T> cutter(lit);
     for (const glm::uvec3& face : welded.triangles) cutter.add(face);
     find_pieces(lit);

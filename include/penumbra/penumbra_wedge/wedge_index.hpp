@@ -87,6 +87,9 @@ class WedgeIndex {
 
     bool empty() const { return tree_.nodes.empty(); }
     std::size_t bytes() const { return tree_.bytes(); }
+    const detail::WedgeTree<T>& tree() const { return tree_; }
+    SilhouetteFrom silhouette() const { return from_; }
+    T tolerance() const { return tolerance_; }
 
     /// Calls, for each mesh that may block, visitor.begin_mesh(); for each of its pieces begin_piece(bool simple),
     /// where simple pieces cover no part of the light twice; edges(const TileEdge<T>&) for edges, and edge(lane, from,

@@ -1,0 +1,223 @@
+// What all silhouettes block together by masks, where intervals do not say it already.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <penumbra/penumbra_wedge/bitmask.hpp>
+#include <penumbra/penumbra_wedge/tile_sums.hpp>
+#include <penumbra/penumbra_wedge/wedge_index.hpp>
+
+namespace penumbra::detail {
+
+/// The interval in which the truth lies for each lane, from the exact area of each piece and from its box, which bounds
+/// where on the light it can be.
+template <class T>
+class IntervalBlender {
+  public:
+    explicit IntervalBlender(const PointTile<T>& tile) : sums_{tile, {{tile.light}}, {}} {}
+
+    void begin_mesh() {}
+    void begin_piece(const Box3<T>& box, bool simple) {
+        sums_.clear();
+        simple_ = simple;
+        const bool has_room = kept_ < most;
+        project(box, pieces_[has_room ? kept_ : most - 1]);
+    }
+    void edges(const TileEdge<T>& e) { sums_.edges(e); }
+    void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T c) { sums_.edge(lane, from, to, c); }
+    void end_piece() {
+        const std::size_t lanes = sums_.tile.lanes;
+        const T unit = T(1) / area(sums_.boxes[0]);
+        Kept& piece = pieces_[kept_ < most ? kept_ : most - 1];
+        T any = T(0);
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const T raw = sums_.areas[0][i] * unit, occlusion = saturate(settle(raw));
+            const bool counts_twice = !simple_ && settle(std::abs(raw)) > T(0);
+            piece.area[i] = occlusion;
+            any += occlusion;
+            folded[i] = counts_twice ? T(1) : folded[i];
+        }
+        if (!(any > T(0))) return;
+        for (std::size_t k = 0; k < kept_; ++k) {
+            const Kept& other = pieces_[k];
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const T x = std::min(piece.right[i], other.right[i]) - std::max(piece.left[i], other.left[i]);
+                const T y = std::min(piece.top[i], other.top[i]) - std::max(piece.bottom[i], other.bottom[i]);
+                const T common = x > T(0) && y > T(0) ? x * y * unit : T(0);
+                overlap[i] += std::min(common, std::min(piece.area[i], other.area[i]));
+            }
+        }
+        for (std::size_t i = 0; i < lanes; ++i) {
+            total[i] += piece.area[i];
+            largest[i] = std::max(largest[i], piece.area[i]);
+        }
+        if (kept_ < most)
+            ++kept_;
+        else  // no room to tell where it is
+            for (std::size_t i = 0; i < lanes; ++i) overlap[i] += piece.area[i];
+    }
+    void end_mesh() {}
+
+    typename PointTile<T>::Values total{}, largest{}, folded{};
+    typename PointTile<T>::Values overlap{};  ///< at most this much of the total is counted twice
+
+  private:
+    static constexpr std::size_t most = 24;
+    struct Kept {
+        typename PointTile<T>::Values area, left, right, bottom, top;
+    };
+
+    /// A rectangle on the light around what lands of a box, in each lane.
+    void project(const Box3<T>& box, Kept& piece) const {
+        const PointTile<T>& tile = sums_.tile;
+        const Rect2<T> light = tile.light;
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            const T p = tile.depth[i], px = tile.x[i], py = tile.y[i];
+            const bool reaches_beyond = box.max.z >= p;
+            const T near = p / (p - std::min(box.min.z, T(0.5) * p)), far = p / (reaches_beyond ? p : p - box.max.z);
+            const T left = px + std::min((box.min.x - px) * near, (box.min.x - px) * far);
+            const T right = px + std::max((box.max.x - px) * near, (box.max.x - px) * far);
+            const T bottom = py + std::min((box.min.y - py) * near, (box.min.y - py) * far);
+            const T top = py + std::max((box.max.y - py) * near, (box.max.y - py) * far);
+            piece.left[i] = reaches_beyond ? light.min.x : std::max(left, light.min.x);
+            piece.right[i] = reaches_beyond ? light.max.x : std::min(right, light.max.x);
+            piece.bottom[i] = reaches_beyond ? light.min.y : std::max(bottom, light.min.y);
+            piece.top[i] = reaches_beyond ? light.max.y : std::min(top, light.max.y);
+        }
+    }
+
+    AreaSums<T, 1> sums_;
+    std::array<Kept, most> pieces_;
+    std::size_t kept_ = 0;
+    bool simple_ = false;
+};
+
+/// Exact areas and masks, piece by piece.
+template <class T>
+class MaskBlender {
+  public:
+    MaskBlender(const PointTile<T>& tile, int size) : sums_{tile, {{tile.light}}, {}}, size_(size) {
+        for (std::size_t j = 0; j < static_cast<std::size_t>(size); ++j) united_[j].fill(0U), clear(j);
+    }
+
+    void begin_mesh() {}
+    void begin_piece(const Box3<T>&, bool) { sums_.clear(), first_ = size_, last_ = -1; }
+    void edges(const TileEdge<T>& e) {
+        sums_.edges(e);
+        add(e);
+    }
+    void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T coefficient) {
+        sums_.edge(lane, from, to, coefficient);
+        const ColumnLine<T> line = column_line(from.x, from.y, to.x, to.y, sums_.tile.light);
+        const Rect2<T>& light = sums_.tile.light;
+        cross(lane, first_column(line.left_x, light, size_), first_column(line.right_x, light, size_), line,
+              static_cast<int>(coefficient));
+    }
+    void end_piece() {
+        const std::size_t lanes = sums_.tile.lanes;
+        std::array<int, PointTile<T>::capacity> wound, sum, fresh;
+        for (auto* counts : {&wound, &sum, &fresh}) std::fill_n(counts->begin(), lanes, 0);
+        for (int j = first_; j <= last_; ++j) {
+            const Column& c = columns_[static_cast<std::size_t>(j)];
+            Words& united = united_[static_cast<std::size_t>(j)];
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const WindingColumn winding{c.ones[i], c.twos[i], c.fours[i], c.eights[i]};
+                const std::uint32_t cells = wound_cells(winding);
+                fresh[i] += count_bits(cells & ~united[i]);
+                united[i] |= cells;
+                wound[i] += count_bits(cells);
+                sum[i] += winding_sum(winding);
+            }
+            clear(static_cast<std::size_t>(j));
+        }
+        const T unit = T(1) / area(sums_.tile.light);
+        for (std::size_t i = 0; i < sums_.tile.count; ++i)
+            all_[i].add(settle(sums_.areas[0][i] * unit), wound[i], sum[i], fresh[i], size_ * size_);
+    }
+    void end_mesh() {}
+    void result(T* occlusion) const {
+        for (std::size_t i = 0; i < sums_.tile.count; ++i) occlusion[i] = all_[i].occlusion;
+    }
+
+  private:
+    static constexpr std::size_t most = 32;
+    using Words = std::array<std::uint32_t, PointTile<T>::capacity>;
+    struct Column {
+        Words ones, twos, fours, eights;
+    };
+
+    void clear(std::size_t j) {
+        for (Words* words : {&columns_[j].ones, &columns_[j].twos, &columns_[j].fours, &columns_[j].eights})
+            std::fill_n(words->begin(), sums_.tile.lanes, 0U);
+    }
+
+    /// Adds an edge that crosses the middles of columns `first` to `end` − 1 to the winding numbers of one lane.
+    void cross(std::size_t lane, int first, int end, const ColumnLine<T>& line, int weight) {
+        if (first >= end || weight == 0) return;
+        first_ = std::min(first_, first), last_ = std::max(last_, end - 1);
+        const bool less = line.rightward == (weight > 0);
+        for (int j = first; j < end; ++j) {
+            const std::uint32_t below = cells_below(line, j, sums_.tile.light, size_);
+            Column& column = columns_[static_cast<std::size_t>(j)];
+            WindingColumn winding{column.ones[lane], column.twos[lane], column.fours[lane], column.eights[lane]};
+            for (int k = std::abs(weight); k > 0; --k) winding = add_winding(winding, below, less);
+            column.ones[lane] = winding.ones, column.twos[lane] = winding.twos;
+            column.fours[lane] = winding.fours, column.eights[lane] = winding.eights;
+        }
+    }
+    /// Lines by vectors; crossings, few in each lane but at other columns in each, lane by lane.
+    void add(const TileEdge<T>& e) {
+        const PointTile<T>& tile = sums_.tile;
+        const Rect2<T> light = tile.light;
+        typename PointTile<T>::Values left, right, y, slope;
+        std::array<int, PointTile<T>::capacity> first, end;
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            const ColumnLine<T> line = column_line(e.ax[i], e.ay[i], e.bx[i], e.by[i], light);
+            left[i] = line.left_x, right[i] = line.right_x, y[i] = line.left_y, slope[i] = line.slope;
+        }
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            first[i] = first_column(left[i], light, size_);
+            end[i] = first_column(right[i], light, size_);
+        }
+        for (std::size_t i = 0; i < tile.count; ++i) {
+            const ColumnLine<T> line{left[i], right[i], y[i], slope[i], e.ax[i] < e.bx[i]};
+            cross(i, first[i], end[i], line, static_cast<int>(e.coefficient[i]));
+        }
+    }
+
+    AreaSums<T, 1> sums_;
+    int size_, first_ = 0, last_ = -1;
+    std::array<Column, most> columns_;
+    std::array<Words, most> united_;
+    std::array<MaskedOcclusion<T>, PointTile<T>::capacity> all_{};
+};
+
+/// Masks only for points at which they can tell anything: where pieces may overlap, by more than half a cell.
+template <class T>
+void blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, int size, T* occlusion) {
+    IntervalBlender<T> intervals(tile);
+    index.visit(tile, intervals);
+    const T half_a_cell = T(0.5) / static_cast<T>(size * size);
+    PointTile<T> open;
+    std::array<std::size_t, PointTile<T>::capacity> from;
+    for (std::size_t i = 0; i < tile.count; ++i) {
+        const T total = intervals.total[i];
+        const T upper = saturate(total), lower = clamp(total - intervals.overlap[i], intervals.largest[i], upper);
+        occlusion[i] = T(0.5) * (lower + upper);
+        if (!(intervals.folded[i] > T(0)) && upper - lower <= half_a_cell) continue;
+        from[open.count] = i;
+        open.push(tile[i]);
+    }
+    if (open.count == 0) return;
+    open.finish(tile.light.max);
+    MaskBlender<T> masks(open, size);
+    index.visit(open, masks);
+    std::array<T, PointTile<T>::capacity> masked;
+    masks.result(masked.data());
+    for (std::size_t i = 0; i < open.count; ++i) occlusion[from[i]] = masked[i];
+}
+
+}  // namespace penumbra::detail
