@@ -110,7 +110,9 @@ TEST_CASE_TEMPLATE("overlap_area is the paper's expression", T, float, double) {
         CAPTURE(i);
         // three rectangles' areas by three roundings each, two quotients, two products
         CHECK(std::abs(exact(overlap) - truth) <= 13 * exact(std::numeric_limits<T>::epsilon()) / 2 * truth);
+#ifndef __FAST_MATH__
         CHECK(overlap == overlap_area(b, a));
+#endif
         CHECK(overlap <= std::min(a.area, b.area));
         CHECK(overlap >= T(0));
     }
@@ -123,7 +125,9 @@ TEST_CASE_TEMPLATE("overlap_area_centroid is the integral of the product of two 
         const RadialPart<T> a = random_part<T>(random), b = random_part<T>(random);
         const T overlap = overlap_area_centroid(a, b);
         CAPTURE(i);
+#ifndef __FAST_MATH__
         CHECK(overlap == overlap_area_centroid(b, a));
+#endif
         CHECK(overlap <= std::min(a.area, b.area));
         CHECK(overlap >= T(0));
         const Vec2<T> size_a = a.rect.max - a.rect.min, size_b = b.rect.max - b.rect.min;
@@ -171,7 +175,9 @@ TEST_CASE_TEMPLATE("blending keeps what it promises", T, float, double) {
         for (int i = 0; i < 100000; ++i) {
             const RadialPart<T> a = random_part<T>(random), b = random_part<T>(random), both = blend(a, b);
             CAPTURE(i);
+#ifndef __FAST_MATH__  // sums in another order
             CHECK(same(both, blend(b, a)));
+#endif
             CHECK(both.area >= std::max(a.area, b.area));
             CHECK(both.area <= a.area + b.area);
             CHECK(both.area <= T(1));
