@@ -6,14 +6,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <penumbra/penumbra_wedge/bitmask.hpp>
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 
 namespace penumbra::detail {
 
-/// The interval in which the truth lies for each lane, from the exact area of each piece and from its box, which bounds
-/// where on the light it can be.
+/// The interval in which the truth lies for each lane, from the exact area of each piece and from a rectangle around
+/// it: two pieces overlap by no more than their rectangles do.
 template <class T>
 class IntervalBlender {
   public:
@@ -22,42 +23,57 @@ class IntervalBlender {
     void begin_mesh() {}
     void begin_piece(const Box3<T>& box, bool simple) {
         sums_.clear();
-        simple_ = simple;
-        const bool has_room = kept_ < most;
-        project(box, pieces_[has_room ? kept_ : most - 1]);
+        box_ = box, simple_ = simple;
+        piece_ = &pieces_[kept_ < most ? kept_ : most - 1];
+        constexpr T big = std::numeric_limits<T>::max();
+        const std::size_t lanes = sums_.tile.lanes;
+        std::fill_n(piece_->left.begin(), lanes, big), std::fill_n(piece_->right.begin(), lanes, -big);
+        std::fill_n(piece_->bottom.begin(), lanes, big), std::fill_n(piece_->top.begin(), lanes, -big);
     }
-    void edges(const TileEdge<T>& e) { sums_.edges(e); }
+    void edges(const TileEdge<T>& e) {
+        sums_.edges(e);
+        Kept& r = *piece_;
+        for (std::size_t i = 0; i < sums_.tile.lanes; ++i) {
+            const bool counts = e.coefficient[i] != T(0);
+            const T left = std::min(e.ax[i], e.bx[i]), right = std::max(e.ax[i], e.bx[i]);
+            const T bottom = std::min(e.ay[i], e.by[i]), top = std::max(e.ay[i], e.by[i]);
+            r.left[i] = std::min(r.left[i], counts ? left : r.left[i]);
+            r.right[i] = std::max(r.right[i], counts ? right : r.right[i]);
+            r.bottom[i] = std::min(r.bottom[i], counts ? bottom : r.bottom[i]);
+            r.top[i] = std::max(r.top[i], counts ? top : r.top[i]);
+        }
+    }
     void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T c) { sums_.edge(lane, from, to, c); }
     void end_piece() {
         const std::size_t lanes = sums_.tile.lanes;
         const T unit = T(1) / area(sums_.boxes[0]);
-        Kept& piece = pieces_[kept_ < most ? kept_ : most - 1];
+        Kept& piece = *piece_;
         T any = T(0);
         for (std::size_t i = 0; i < lanes; ++i) {
             const T raw = sums_.areas[0][i] * unit, occlusion = saturate(settle(raw));
             const bool counts_twice = !simple_ && settle(std::abs(raw)) > T(0);
             piece.area[i] = occlusion;
-            any += occlusion;
+            any = std::max(any, occlusion);
             folded[i] = counts_twice ? T(1) : folded[i];
         }
         if (!(any > T(0))) return;
-        for (std::size_t k = 0; k < kept_; ++k) {
+        include_hidden_edges(piece);
+        for (std::size_t k = 0; k < std::min(kept_, most - 1); ++k) {
             const Kept& other = pieces_[k];
             for (std::size_t i = 0; i < lanes; ++i) {
                 const T x = std::min(piece.right[i], other.right[i]) - std::max(piece.left[i], other.left[i]);
                 const T y = std::min(piece.top[i], other.top[i]) - std::max(piece.bottom[i], other.bottom[i]);
-                const T common = x > T(0) && y > T(0) ? x * y * unit : T(0);
+                const T common = std::max(x, T(0)) * std::max(y, T(0)) * unit;
                 overlap[i] += std::min(common, std::min(piece.area[i], other.area[i]));
             }
         }
+        const bool has_room = kept_ + 1 < most;
         for (std::size_t i = 0; i < lanes; ++i) {
             total[i] += piece.area[i];
             largest[i] = std::max(largest[i], piece.area[i]);
+            overlap[i] += has_room ? T(0) : piece.area[i];  // nobody will know where this one is
         }
-        if (kept_ < most)
-            ++kept_;
-        else  // no room to tell where it is
-            for (std::size_t i = 0; i < lanes; ++i) overlap[i] += piece.area[i];
+        kept_ += has_room ? 1 : 0;
     }
     void end_mesh() {}
 
@@ -70,28 +86,31 @@ class IntervalBlender {
         typename PointTile<T>::Values area, left, right, bottom, top;
     };
 
-    /// A rectangle on the light around what lands of a box, in each lane.
-    void project(const Box3<T>& box, Kept& piece) const {
+    /// Limits a piece's rectangle to the light. Edges to the left, to the right and below are not handed out: where the
+    /// piece's box may reach there, so does the rectangle.
+    void include_hidden_edges(Kept& r) const {
         const PointTile<T>& tile = sums_.tile;
         const Rect2<T> light = tile.light;
+        const Box3<T> b = box_;
         for (std::size_t i = 0; i < tile.lanes; ++i) {
             const T p = tile.depth[i], px = tile.x[i], py = tile.y[i];
-            const bool reaches_beyond = box.max.z >= p;
-            const T near = p / (p - std::min(box.min.z, T(0.5) * p)), far = p / (reaches_beyond ? p : p - box.max.z);
-            const T left = px + std::min((box.min.x - px) * near, (box.min.x - px) * far);
-            const T right = px + std::max((box.max.x - px) * near, (box.max.x - px) * far);
-            const T bottom = py + std::min((box.min.y - py) * near, (box.min.y - py) * far);
-            const T top = py + std::max((box.max.y - py) * near, (box.max.y - py) * far);
-            piece.left[i] = reaches_beyond ? light.min.x : std::max(left, light.min.x);
-            piece.right[i] = reaches_beyond ? light.max.x : std::min(right, light.max.x);
-            piece.bottom[i] = reaches_beyond ? light.min.y : std::max(bottom, light.min.y);
-            piece.top[i] = reaches_beyond ? light.max.y : std::min(top, light.max.y);
+            const bool beyond = b.max.z >= p;
+            const T near = p / (p - std::min(b.min.z, T(0.5) * p)), far = p / (beyond ? p : p - b.max.z);
+            const T left = px + std::min((b.min.x - px) * near, (b.min.x - px) * far);
+            const T right = px + std::max((b.max.x - px) * near, (b.max.x - px) * far);
+            const T bottom = py + std::min((b.min.y - py) * near, (b.min.y - py) * far);
+            r.left[i] = beyond | (left < light.min.x) ? light.min.x : r.left[i];
+            r.right[i] = beyond | (right > light.max.x) ? light.max.x : r.right[i];
+            r.bottom[i] = beyond | (bottom < light.min.y) ? light.min.y : r.bottom[i];
+            r.top[i] = beyond | (r.top[i] > light.max.y) ? light.max.y : r.top[i];
         }
     }
 
     AreaSums<T, 1> sums_;
     std::array<Kept, most> pieces_;
     std::size_t kept_ = 0;
+    Kept* piece_ = nullptr;
+    Box3<T> box_{};
     bool simple_ = false;
 };
 
