@@ -78,8 +78,8 @@ std::set<std::string> public_functions(const std::vector<std::string>& lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::string& line = lines[i];
         std::smatch match;
-        if (line.rfind("namespace detail {", 0) == 0) detail = true;
-        if (line.rfind("}  // namespace detail", 0) == 0) detail = false;
+        if (line == "namespace detail {" || line == "namespace penumbra::detail {") detail = true;
+        if (line == "}  // namespace detail" || line == "}  // namespace penumbra::detail") detail = false;
         if (detail) continue;
         if (std::regex_search(line, match, type_start) && line.find(';') == std::string::npos)
             inside = match.str(2), is_public = match.str(1) == "struct";
@@ -165,6 +165,9 @@ TEST_CASE("the parser finds what it should") {
                        "namespace detail {",
                        "int not_public(int q) { return q; }",
                        "}  // namespace detail",
+                       "namespace penumbra::detail {",
+                       "int not_public_either(int q) { return q; }",
+                       "}  // namespace penumbra::detail",
                        "inline int last(int n) { return n; }"};
     CHECK(public_functions(header) ==
           std::set<std::string>{"free_one(a, b, c)", "S::member(x)", "C::shown()", "last(n)"});
