@@ -56,10 +56,10 @@ struct Worst {
     }
 };
 
-#define CHECK_WORST(worst, tolerance)                                               \
-    do {                                                                            \
-        INFO("worst " << worst.error << " of " << tolerance << " at " << worst.at); \
-        CHECK(worst.error <= tolerance);                                            \
+#define CHECK_WORST(worst, allowed)                                               \
+    do {                                                                          \
+        INFO("worst " << worst.error << " of " << allowed << " at " << worst.at); \
+        CHECK(worst.error <= allowed);                                            \
     } while (false)
 
 /// What one loop may be off by, in units of the box: the figures.
