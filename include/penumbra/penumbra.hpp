@@ -17,6 +17,8 @@
 #include <penumbra/occlusion_texture/summed_area.hpp>
 #include <penumbra/penumbra_wedge/bitmask.hpp>
 #include <penumbra/penumbra_wedge/blending.hpp>
+#include <penumbra/penumbra_wedge/clip.hpp>
+#include <penumbra/penumbra_wedge/coverage.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/mask_blending.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>

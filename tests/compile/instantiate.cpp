@@ -1,52 +1,72 @@
 // Every public template for float and double, so that each variant compiles bodies and not only declarations.
 #include <penumbra/penumbra.hpp>
 
-#define INSTANTIATE(T)                                                                                           \
-    template T saturate(T);                                                                                      \
-    template T saturated_ratio(T, T);                                                                            \
-    template T safe_ratio(T, T, T);                                                                              \
-    template T mix(T, T, T);                                                                                     \
-    template T exp2_int(int);                                                                                    \
-    template Vec3<T> normalize_or(const Vec3<T>&, const Vec3<T>&);                                               \
-    template T safe_length(const Vec3<T>&);                                                                      \
-    template Vec3<T> any_perpendicular(const Vec3<T>&);                                                          \
-    template T area(const Rect2<T>&);                                                                            \
-    template Rect2<T> intersect(const Rect2<T>&, const Rect2<T>&);                                               \
-    template T signed_distance(const Plane<T>&, const Vec3<T>&);                                                 \
-    template struct LightFrame<T>;                                                                               \
-    template LightFrame<T> light_frame(const RectLight<T>&, const Vec3<T>&);                                     \
-    template LightFrame<T> light_frame(const DiskLight<T>&);                                                     \
-    template LightFrame<T> light_frame(const LinearLight<T>&, const Vec3<T>&);                                   \
-    template bool validate(const RectLight<T>&);                                                                 \
-    template bool validate(const DiskLight<T>&);                                                                 \
-    template bool validate(const LinearLight<T>&);                                                               \
-    template bool validate(const Mesh<T>&, const std::string&);                                                  \
-    template Box3<T> bounds(const std::vector<Mesh<T>>&);                                                        \
-    template EdgeAdjacency edge_adjacency(const Mesh<T>&);                                                       \
-    template Mesh<T> weld(const Mesh<T>&);                                                                       \
-    template class Image<T>;                                                                                     \
-    template T bilinear(const Image<std::uint8_t>&, T, T);                                                       \
-    template void rasterize(const RasterVertex<T>&, const RasterVertex<T>&, const RasterVertex<T>&, int, int, T, \
-                            void (&)(int, int, T));                                                              \
-    template T combine_product(T, T);                                                                            \
-    template T combine_mean(T, T);                                                                               \
-    template T combine(const T*, std::size_t, Combination);                                                      \
-    template OcclusionBounds<T> occlusion_bounds(const T*, std::size_t);                                         \
-    template T kernel_scale(T, T);                                                                               \
-    template T kernel_size(T, T, T);                                                                             \
-    template Rect2<T> kernel_rect(T, const Vec3<T>&, const Rect2<T>&);                                           \
-    template class MipMap<T>;                                                                                    \
-    template class NBuffer<T>;                                                                                   \
-    template class OcclusionTextureShadow<T>;                                                                    \
-    template class PenumbraWedgeShadow<T>;                                                                       \
-    template Vec3<T> face_normal(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&);                                \
-    template T silhouette_tolerance(const Box3<T>&);                                                             \
-    template Wedge<T> wedge(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&);                                     \
-    template HalfWedge<T> half_wedge(const Wedge<T>&, WedgeHalf);                                                \
-    template bool contains(const Wedge<T>&, const Vec3<T>&);                                                     \
-    template bool contains(const HalfWedge<T>&, const Vec3<T>&);                                                 \
-    template Vec3<T> wedge_vertex(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&, const Box3<T>&, int);          \
-    template int face_winding(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T, Surface);                       \
+#define INSTANTIATE(T)                                                                                             \
+    template T saturate(T);                                                                                        \
+    template T saturated_ratio(T, T);                                                                              \
+    template T safe_ratio(T, T, T);                                                                                \
+    template T mix(T, T, T);                                                                                       \
+    template T exp2_int(int);                                                                                      \
+    template Vec3<T> normalize_or(const Vec3<T>&, const Vec3<T>&);                                                 \
+    template T safe_length(const Vec3<T>&);                                                                        \
+    template Vec3<T> any_perpendicular(const Vec3<T>&);                                                            \
+    template T area(const Rect2<T>&);                                                                              \
+    template Rect2<T> intersect(const Rect2<T>&, const Rect2<T>&);                                                 \
+    template T signed_distance(const Plane<T>&, const Vec3<T>&);                                                   \
+    template struct LightFrame<T>;                                                                                 \
+    template LightFrame<T> light_frame(const RectLight<T>&, const Vec3<T>&);                                       \
+    template LightFrame<T> light_frame(const DiskLight<T>&);                                                       \
+    template LightFrame<T> light_frame(const LinearLight<T>&, const Vec3<T>&);                                     \
+    template bool validate(const RectLight<T>&);                                                                   \
+    template bool validate(const DiskLight<T>&);                                                                   \
+    template bool validate(const LinearLight<T>&);                                                                 \
+    template bool validate(const Mesh<T>&, const std::string&);                                                    \
+    template Box3<T> bounds(const std::vector<Mesh<T>>&);                                                          \
+    template EdgeAdjacency edge_adjacency(const Mesh<T>&);                                                         \
+    template Mesh<T> weld(const Mesh<T>&);                                                                         \
+    template class Image<T>;                                                                                       \
+    template T bilinear(const Image<std::uint8_t>&, T, T);                                                         \
+    template void rasterize(const RasterVertex<T>&, const RasterVertex<T>&, const RasterVertex<T>&, int, int, T,   \
+                            void (&)(int, int, T));                                                                \
+    template T combine_product(T, T);                                                                              \
+    template T combine_mean(T, T);                                                                                 \
+    template T combine(const T*, std::size_t, Combination);                                                        \
+    template OcclusionBounds<T> occlusion_bounds(const T*, std::size_t);                                           \
+    template T kernel_scale(T, T);                                                                                 \
+    template T kernel_size(T, T, T);                                                                               \
+    template Rect2<T> kernel_rect(T, const Vec3<T>&, const Rect2<T>&);                                             \
+    template class MipMap<T>;                                                                                      \
+    template class NBuffer<T>;                                                                                     \
+    template class OcclusionTextureShadow<T>;                                                                      \
+    template T edge_coverage(const Vec2<T>&, const Vec2<T>&, const Rect2<T>&);                                     \
+    template CoverageMoments<T> edge_moments(const Vec2<T>&, const Vec2<T>&, const Rect2<T>&);                     \
+    template T loop_coverage(const Vec2<T>*, std::size_t, const Rect2<T>&);                                        \
+    template ProjectedEdge<T> project_edge(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, const Rect2<T>&);       \
+    template void project_loop(const Vec3<T>*, std::size_t, const Vec3<T>&, const Rect2<T>&,                       \
+                               void (&)(const Vec2<T>&, const Vec2<T>&));                                          \
+    template T loop_coverage(const Vec3<T>*, std::size_t, const Vec3<T>&, const Rect2<T>&);                        \
+    template T triangle_coverage(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, const Rect2<T>&); \
+    template struct RadialPartBuilder<T>;                                                                          \
+    template RadialPart<T> empty_part();                                                                           \
+    template RadialPart<T> full_part();                                                                            \
+    template RadialPart<T> valid_part(const RadialPart<T>&);                                                       \
+    template Rect2<T> quadrant(const Rect2<T>&, int);                                                              \
+    template T overlap_area(const RadialPart<T>&, const RadialPart<T>&);                                           \
+    template T overlap_area_centroid(const RadialPart<T>&, const RadialPart<T>&);                                  \
+    template RadialPart<T> blend(const RadialPart<T>&, const RadialPart<T>&);                                      \
+    template RadialPart<T> blend_centroid(const RadialPart<T>&, const RadialPart<T>&);                             \
+    template struct RectangleProduct<T>;                                                                           \
+    template PackedParts pack_parts(const std::array<RadialPart<T>, 4>&);                                          \
+    template std::array<RadialPart<T>, 4> unpack_parts(const PackedParts&);                                        \
+    template class PenumbraWedgeShadow<T>;                                                                         \
+    template Vec3<T> face_normal(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&);                                  \
+    template T silhouette_tolerance(const Box3<T>&);                                                               \
+    template Wedge<T> wedge(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&);                                       \
+    template HalfWedge<T> half_wedge(const Wedge<T>&, WedgeHalf);                                                  \
+    template bool contains(const Wedge<T>&, const Vec3<T>&);                                                       \
+    template bool contains(const HalfWedge<T>&, const Vec3<T>&);                                                   \
+    template Vec3<T> wedge_vertex(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&, const Box3<T>&, int);            \
+    template int face_winding(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T, Surface);                         \
     template std::vector<SilhouetteEdge> silhouette(const Mesh<T>&, const EdgeAdjacency&, const Vec3<T>&, Viewer);
 
 namespace penumbra {

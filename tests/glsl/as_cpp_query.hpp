@@ -4,6 +4,8 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // some options leave a parameter unused
 #include "../../shaders/penumbra/light.glsl"
 #include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/clip.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/coverage.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #pragma GCC diagnostic pop
 
@@ -33,6 +35,8 @@ struct Query {
 #undef PENUMBRA_NUMERIC_GLSL
 #undef PENUMBRA_N_BUFFER_GLSL
 #undef PENUMBRA_OCCLUSION_TEXTURE_SHADOW_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_CLIP_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_COVERAGE_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL

@@ -8,6 +8,7 @@
 #include "functions/light.hpp"
 #include "functions/numeric.hpp"
 #include "functions/occlusion_texture.hpp"
+#include "functions/penumbra_wedge_coverage.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
 
 namespace penumbra::test::functions {
@@ -19,6 +20,7 @@ inline std::vector<Function> all() {
     add_light(result);
     add_combine(result);
     add_occlusion_texture(result);
+    add_penumbra_wedge_coverage(result);
     add_penumbra_wedge_wedge(result);
     return result;
 }
