@@ -22,6 +22,9 @@
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/mask_blending.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>
+#include <penumbra/penumbra_wedge/overlap.hpp>
+#include <penumbra/penumbra_wedge/packing.hpp>
+#include <penumbra/penumbra_wedge/radial_part.hpp>
 #include <penumbra/penumbra_wedge/shadow.hpp>
 #include <penumbra/penumbra_wedge/silhouette.hpp>
 #include <penumbra/penumbra_wedge/wedge.hpp>

@@ -6,6 +6,8 @@
 #include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/clip.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/coverage.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/overlap.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/packing.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #pragma GCC diagnostic pop
 
@@ -37,6 +39,9 @@ struct Query {
 #undef PENUMBRA_OCCLUSION_TEXTURE_SHADOW_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_CLIP_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_COVERAGE_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_OVERLAP_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_PACKING_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_RADIAL_PART_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
@@ -48,4 +53,5 @@ struct Query {
 #undef PENUMBRA_OCCLUSION_TEXTURE_FILTER
 #undef PENUMBRA_OCCLUSION_TEXTURE_PLANE
 #undef PENUMBRA_OCCLUSION_TEXTURE_SELF_SHADOW
+#undef PENUMBRA_PENUMBRA_WEDGE_CELLS
 #undef PENUMBRA_SLICE_SAMPLER

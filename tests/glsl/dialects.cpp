@@ -165,6 +165,7 @@ TEST_CASE("passes and queries compile with every option") {
                           {"OCCLUSION_TEXTURE_FILTER " + filter, "OCCLUSION_TEXTURE_COMBINATION " + rule,
                            "OCCLUSION_TEXTURE_SELF_SHADOW " + self, "OCCLUSION_TEXTURE_CHANNELS 1"},
                           main);
+        check("penumbra_wedge/overlap.glsl", "frag", version, {"PENUMBRA_WEDGE_CELLS 4"}, main);
     }
     for (const std::string version : {"430 core", "310 es"})
         check("occlusion_texture/summed_area_scan.comp", "comp", version, {"SCAN_COLUMNS 1"}, "");

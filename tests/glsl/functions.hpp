@@ -9,6 +9,8 @@
 #include "functions/numeric.hpp"
 #include "functions/occlusion_texture.hpp"
 #include "functions/penumbra_wedge_coverage.hpp"
+#include "functions/penumbra_wedge_overlap.hpp"
+#include "functions/penumbra_wedge_packing.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
 
 namespace penumbra::test::functions {
@@ -21,6 +23,8 @@ inline std::vector<Function> all() {
     add_combine(result);
     add_occlusion_texture(result);
     add_penumbra_wedge_coverage(result);
+    add_penumbra_wedge_overlap(result);
+    add_penumbra_wedge_packing(result);
     add_penumbra_wedge_wedge(result);
     return result;
 }
