@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <penumbra/combine.hpp>
 #include <penumbra/light.hpp>
@@ -67,25 +68,21 @@ class PenumbraWedgeShadow {
     void visibility(const Vec3<T>* points, std::size_t count, T* result) const {
         std::fill(result, result + count, T(1));
         if (index_.empty()) return;
-        PointTile<T> tile;
-        std::size_t from[PointTile<T>::capacity];
-        const auto shade = [&] {
-            if (tile.count == 0) return;
-            tile.finish(half_size_);
-            T occlusion[PointTile<T>::capacity];
-            detail::blend(index_, tile, options_, occlusion);
-            for (std::size_t i = 0; i < tile.count; ++i) result[from[i]] = T(1) - occlusion[i];
-            tile.count = 0;
+        std::array<detail::AskedPoint<T>, PointTile<T>::capacity> asked;
+        std::size_t n = 0;
+        const auto shade_all = [&] {
+            detail::split_at_gaps(asked.data(), n,
+                                  [&](const auto* first, std::size_t size) { shade(first, size, result); });
+            n = 0;
         };
         for (std::size_t i = 0; i < count; ++i) {
             if (!is_finite(points[i])) continue;
             const Vec3<T> point_ls = detail::to_scaled_light(frame_, points[i], scale_);
             if (!(point_ls.z > T(0)) || !is_finite(point_ls)) continue;
-            from[tile.count] = i;
-            tile.push(point_ls);
-            if (tile.count == PointTile<T>::capacity) shade();
+            asked[n++] = {point_ls, i};
+            if (n == asked.size()) shade_all();
         }
-        shade();
+        if (n > 0) shade_all();
     }
 
     const Options& options() const { return options_; }
@@ -100,6 +97,15 @@ class PenumbraWedgeShadow {
     std::size_t bytes() const { return index_.bytes(); }
 
   private:
+    void shade(const detail::AskedPoint<T>* points, std::size_t count, T* result) const {
+        PointTile<T> tile;
+        for (std::size_t i = 0; i < count; ++i) tile.push(points[i].point_ls);
+        tile.finish(half_size_);
+        std::array<T, PointTile<T>::capacity> occlusion;
+        detail::blend(index_, tile, options_, occlusion.data());
+        for (std::size_t i = 0; i < count; ++i) result[points[i].index] = T(1) - occlusion[i];
+    }
+
     Options options_;
     LightFrame<T> frame_{};
     Vec2<T> half_size_ = Vec2<T>(T(0), T(0));  // scaled

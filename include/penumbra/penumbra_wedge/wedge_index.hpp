@@ -17,59 +17,11 @@
 #include <cstdint>
 #include <limits>
 #include <penumbra/penumbra_wedge/clip.hpp>
+#include <penumbra/penumbra_wedge/point_tile.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <vector>
 
 namespace penumbra {
-
-/// Up to 64 points in light space, all at depth > 0, as arrays, with what bounds their pyramids to the light. The
-/// nearer they are to each other, the fewer edges they are asked about together.
-template <class T>
-struct PointTile {
-    static constexpr std::size_t capacity = 64;
-    using Values = std::array<T, capacity>;
-
-    Values x, y, depth;
-    std::size_t count = 0;       ///< points
-    std::size_t lanes = 0;       ///< count rounded up to a multiple of 8; the last point stands there again
-    Rect2<T> light;              ///< its box
-    Box3<T> box;                 ///< around the points
-    Vec3<T> center;              ///< of that box
-    T radius;                    ///< of the points around it
-    T right, left, top, bottom;  ///< slopes of the pyramids' sides: beyond them is none
-
-    void push(const Vec3<T>& point_ls) {
-        x[count] = point_ls.x, y[count] = point_ls.y, depth[count] = point_ls.z;
-        ++count;
-    }
-    /// After the last point, of at least one.
-    void finish(const Vec2<T>& half_size) {
-        light = {-half_size, half_size};
-        for (lanes = count; lanes % 8 != 0; ++lanes)
-            x[lanes] = x[count - 1], y[lanes] = y[count - 1], depth[lanes] = depth[count - 1];
-        constexpr T big = std::numeric_limits<T>::max();
-        box = empty_box<T>();
-        right = top = -big, left = bottom = big;
-        for (std::size_t i = 0; i < count; ++i) {
-            box = extend(box, Vec3<T>(x[i], y[i], depth[i]));
-            right = std::max(right, (x[i] - half_size.x) / depth[i]);
-            left = std::min(left, (x[i] + half_size.x) / depth[i]);
-            top = std::max(top, (y[i] - half_size.y) / depth[i]);
-            bottom = std::min(bottom, (y[i] + half_size.y) / depth[i]);
-        }
-        center = (box.min + box.max) * T(0.5);
-        const Vec3<T> half = (box.max - box.min) * T(0.5);
-        radius = std::sqrt(glm::dot(half, half)) * T(1.0001);
-    }
-    Vec3<T> operator[](std::size_t i) const { return Vec3<T>(x[i], y[i], depth[i]); }
-};
-
-/// An edge as each lane of a tile sees it on the light's plane. It counts `coefficient` times there: 0 where it is not
-/// on the silhouette.
-template <class T>
-struct TileEdge {
-    typename PointTile<T>::Values ax, ay, bx, by, coefficient;
-};
 
 /// Built once; queried from any number of threads, without allocation.
 template <class T>
