@@ -8,8 +8,9 @@ usage() {
 Usage: examples/run.sh [--no-install] [--benchmark] [options of the program]
 
 Installs what the examples need (Debian, Ubuntu), builds them in build/examples and runs the study: each method
-beside ray-traced truth on six scenes, with what it costs. It prints a table and writes out/study/index.html.
+beside ray-traced truth on many scenes, with what it costs. It prints a table and writes out/study/index.html.
 
+  --scaling     measure cost against the size of the scene instead; writes out/scaling/index.html
   --benchmark   run the benchmark of the prefilters instead; writes out/benchmark/prefilter.json
   --no-install  take the packages as they are
   --help        this text and, once built, the program's own options
@@ -21,13 +22,15 @@ END
 build=$root/build/examples
 help=false
 program=study
-out=$root/out/study
+folder=study
+out=
 options=()
 while (($#)); do
     case $1 in
         --help | -h) help=true ;;
         --benchmark) program=prefilter_benchmark ;;
         --no-install) export PENUMBRA_NO_INSTALL=1 ;;
+        --scaling) folder=scaling options+=("$1") ;;
         --out) out=${2:?--out needs a folder} && shift ;;
         --out=*) out=${1#--out=} ;;
         *) options+=("$1") ;;
@@ -53,7 +56,7 @@ cmake --build "$build"
 
 if [[ $program == study ]]; then
     echo "== Running"
-    "$build/study" --out "$out" "${options[@]}"
+    "$build/study" --out "${out:-$root/out/$folder}" "${options[@]}"
 else
     mkdir -p "$root/out/benchmark"
     report=$root/out/benchmark/prefilter.json

@@ -10,6 +10,7 @@
 
 #include "measure.hpp"
 #include "report.hpp"
+#include "scaling.hpp"
 #include "scene.hpp"
 #include "settings.hpp"
 
@@ -31,39 +32,53 @@ std::string joined(int argc, char** argv) {
 }
 
 struct Arguments {
-    std::vector<std::string> scenes;
+    std::vector<std::string> scenes, methods;
     std::string mesh, light = "rectangle", out = "out/study";
-    double size = 1.0;
+    std::vector<double> sizes = {1.0};
     std::size_t points = 0;
-    bool quick = false;
+    bool quick = false, scaling = false;
 };
 
 std::vector<Scene> wanted_scenes(const Arguments& arguments) {
-    const auto size = static_cast<float>(arguments.size);
+    std::vector<std::string> names = arguments.scenes;
+    if (names.empty() && arguments.mesh.empty() && !arguments.scaling) names = scene_names();
     std::vector<Scene> scenes;
-    for (const std::string& name : arguments.scenes) scenes.push_back(make_scene(name, size));
-    if (!arguments.mesh.empty()) scenes.push_back(load_scene(arguments.mesh, size));
-    if (scenes.empty())
-        for (const std::string& name : scene_names()) scenes.push_back(make_scene(name, size));
+    for (const double factor : arguments.sizes) {
+        const auto size = static_cast<float>(factor);
+        for (const std::string& name : names) scenes.push_back(make_scene(name, size));
+        if (!arguments.mesh.empty()) scenes.push_back(load_scene(arguments.mesh, size));
+    }
     return scenes;
 }
 
-int run(const Arguments& arguments, const std::string& command) {
+/// Scenes that compare rules for overlap are many and plain: they get by with less.
+Effort effort_for(Subject subject, const Arguments& arguments) {
     Effort effort;
-    if (arguments.quick) effort = {1024, 1024, 256, 3, 280, 210, 128};
+    if (subject == Subject::overlap) effort.most_rays = 512, effort.width = 400, effort.height = 300;
+    if (arguments.quick) effort = {2048, 1024, 1024, 256, 3, 280, 210, 128};
     if (arguments.points > 0) effort.points = arguments.points;
+    return effort;
+}
 
+int run(const Arguments& arguments, const std::string& command) {
     Study study;
     study.command = command;
     study.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
     study.machine = processor();
     study.compiler = PENUMBRA_STUDY_COMPILER;
     study.flags = PENUMBRA_STUDY_FLAGS;
-    study.truth_rays = effort.truth_rays;
+    study.truth_rays = effort_for(Subject::methods, arguments).truth_rays;
     const std::filesystem::path folder = arguments.out;
     std::filesystem::create_directories(folder);
-    const std::vector<Setting> settings = occlusion_texture_settings(arguments.quick);
-    for (const Scene& scene : wanted_scenes(arguments)) measure_scene(scene, settings, effort, folder, study);
+    for (const Scene& scene : wanted_scenes(arguments)) {
+        const std::vector<Setting> settings = settings_for(scene, arguments.methods, arguments.quick);
+        if (settings.empty()) continue;
+        measure_scene(scene, settings, effort_for(scene.subject, arguments), folder, study);
+    }
+    if (arguments.scaling) {
+        measure_spheres(effort_for(Subject::overlap, arguments), study);
+        measure_triangles(effort_for(Subject::overlap, arguments), study);
+    }
     compare_with_rays(study);
     for (const std::string& missing : write_study(study, folder)) fmt::print(stderr, "note: {}\n", missing);
     print_table(study);
@@ -83,10 +98,15 @@ int main(int argc, char** argv) {
     app.add_option("--light", arguments.light, "kind of light")
         ->check(CLI::IsMember({"rectangle"}))
         ->capture_default_str();
-    app.add_option("--size", arguments.size, "factor on the light's size")
+    app.add_option("--size", arguments.sizes, "factor on the light's size; again for more")
         ->check(CLI::Range(0.0, 1e3))
         ->capture_default_str();
-    app.add_option("--points", arguments.points, "points to measure on, at most those that the camera sees")
+    app.add_option("--method", arguments.methods,
+                   "a method, with all its settings; again for more; all if none is named")
+        ->check(CLI::IsMember(method_names()));
+    app.add_flag("--scaling", arguments.scaling,
+                 "cost against the number of spheres and of triangles; no scenes unless they are named");
+    app.add_option("--points", arguments.points, "points to measure errors at, at most those that the camera sees")
         ->check(CLI::Range(1, 10000000));
     app.add_flag("--quick", arguments.quick, "fewer settings, points and rays: about a tenth of the time");
     app.add_option("--out", arguments.out, "folder for the results")->capture_default_str();

@@ -3,36 +3,26 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
-#include <penumbra/geometry.hpp>
 #include <vector>
 
 #include "result.hpp"
 #include "scene.hpp"
+#include "settings.hpp"
 
 namespace penumbra::study {
 
-/// A method built for one scene: what is timed is `visibility`, over a whole batch on one thread.
-struct Built {
-    std::function<void(const Vec3<float>* points, std::size_t count, float* result)> visibility;
-    std::size_t bytes = 0;
-};
-
-/// A setting to measure.
-struct Setting {
-    std::string method;
-    nlohmann::ordered_json knobs;
-    bool is_default = false;
-    std::function<Built(const Scene&)> build;
-};
-
 struct Effort {
-    std::size_t points = 4096;  ///< that figures are measured on
+    std::size_t points = 8192;  ///< that errors are measured at
+    std::size_t timed = 4096;   ///< points that are timed
     int truth_rays = 4096;      ///< a point
     int most_rays = 1024;       ///< of the sweep, from 4 on by doubling
-    int rounds = 3;             ///< every timing is the median of so many, all settings in turn
+    int rounds = 7;             ///< every timing is the median of at most so many, all settings in turn
     int width = 560, height = 420;
     int picture_rays = 256;  ///< a pixel of the true picture
+
+    // Errors are rare and large, at contacts and edges, so they need many places; batches are timed on neighbours, as a
+    // picture would have them.
+    static constexpr std::size_t error_run = 8, timed_run = 64;
 };
 
 /// Adds the scene's rows, rays and pictures to the study; pictures are written to `folder`. Says on stderr how far it

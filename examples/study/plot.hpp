@@ -1,18 +1,23 @@
-// The accuracy-against-time plot of a scene as a picture, drawn by gnuplot.
+// The study's plots.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "result.hpp"
 
 namespace penumbra::study {
 
-/// A name for files made from a scene's name: letters, digits, '-' and '_' only.
-std::string file_name(const std::string& scene);
+// Both write <name>.gp and have gnuplot draw <name>.svg from it. False if gnuplot is missing or fails.
 
-/// Writes plot-<scene>.gp, which holds its data, and has gnuplot draw plot-<scene>.svg from it. False if
-/// gnuplot is missing or fails; the script is there all the same.
+/// plot-<scene>: accuracy against time.
 bool write_plot(const Study& study, const std::string& scene, const std::filesystem::path& folder);
+
+/// plot-cost-<figure>: cost against size.
+bool write_cost_plot(const Study& study, const std::string& figure, const std::filesystem::path& folder);
+
+/// The figures that the study has costs of.
+std::vector<std::string> cost_figures(const Study& study);
 
 }  // namespace penumbra::study

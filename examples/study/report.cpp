@@ -61,7 +61,8 @@ Json row_json(const Row& row) {
             {"rays_at_equal_rmse", positive(row.rays_at_equal_rmse)},
             {"rays_limit", positive(row.rays_limit)},
             {"ray_sampler", row.ray_sampler},
-            {"default", row.is_default}};
+            {"default", row.is_default},
+            {"overlap_rmse", row.overlap_rmse < 0.0 ? Json(nullptr) : Json(row.overlap_rmse)}};
 }
 
 std::string csv_field(const Json& value) {
@@ -144,6 +145,21 @@ void print_line(std::FILE* out, const char* mark, const Cells& line, const std::
     fmt::print(out, "{}\n", text);
 }
 
+void print_costs(const Study& study, std::FILE* out) {
+    for (const std::string& figure : cost_figures(study)) {
+        fmt::print(out, "\n{:>10}  {:>10}  {:>8}  {:>9}  series\n", figure, "ns/point", "RMSE", "build, ms");
+        std::vector<const Cost*> costs;
+        for (const Cost& cost : study.costs)
+            if (cost.figure == figure) costs.push_back(&cost);
+        std::stable_sort(costs.begin(), costs.end(),
+                         [](const Cost* a, const Cost* b) { return a->series < b->series; });
+        for (const Cost* cost : costs)
+            fmt::print(out, "{:>10}  {:>10}  {:>8.4f}  {:>9}  {}\n", cost->x,
+                       (cost->at_least ? "> " : "") + digits(cost->ns_per_point), cost->rmse,
+                       cost->build_ms < 0.0 ? "" : digits(cost->build_ms), cost->series);
+    }
+}
+
 }  // namespace
 
 Json to_json(const Study& study) {
@@ -157,13 +173,16 @@ Json to_json(const Study& study) {
                  {"scenes", Json::array()},
                  {"rows", Json::array()},
                  {"rays", Json::array()},
-                 {"pictures", Json::array()}};
+                 {"pictures", Json::array()},
+                 {"triplets", Json::array()},
+                 {"costs", Json::array()}};
     for (const SceneInfo& scene : study.scenes)
         json["scenes"].push_back({{"name", scene.name},
                                   {"about", scene.about},
                                   {"triangles", scene.triangles},
                                   {"light", scene.light},
                                   {"points", scene.points},
+                                  {"overlap_points", scene.overlap_points},
                                   {"truth_noise", scene.truth_noise},
                                   {"plot", "plot-" + file_name(scene.name) + ".svg"}});
     for (const Row& row : study.rows) json["rows"].push_back(row_json(row));
@@ -176,11 +195,25 @@ Json to_json(const Study& study) {
                                 {"ns_per_point", row.ns_per_point}});
     for (const Picture& picture : study.pictures)
         json["pictures"].push_back({{"scene", picture.scene},
+                                    {"label", picture.label},
                                     {"title", picture.title},
                                     {"method", picture.method_png},
                                     {"truth", picture.truth_png},
                                     {"difference", picture.difference_png},
                                     {"rmse", picture.rmse}});
+    for (const Triplet& triplet : study.triplets)
+        json["triplets"].push_back({{"scene", triplet.scene},
+                                    {"picture", triplet.png},
+                                    {"plain_rmse", triplet.plain_rmse},
+                                    {"blended_rmse", triplet.blended_rmse}});
+    for (const Cost& cost : study.costs)
+        json["costs"].push_back({{"figure", cost.figure},
+                                 {"series", cost.series},
+                                 {"x", cost.x},
+                                 {"ns_per_point", cost.ns_per_point},
+                                 {"at_least", cost.at_least},
+                                 {"rmse", cost.rmse < 0.0 ? Json(nullptr) : Json(cost.rmse)},
+                                 {"build_ms", cost.build_ms < 0.0 ? Json(nullptr) : Json(cost.build_ms)}});
     return json;
 }
 
@@ -207,6 +240,7 @@ std::vector<std::string> write_study(const Study& study, const fs::path& folder)
     write_file(folder / "study.csv", to_csv(study));
     bool plots = true;
     for (const SceneInfo& scene : study.scenes) plots = write_plot(study, scene.name, folder) && plots;
+    for (const std::string& figure : cost_figures(study)) plots = write_cost_plot(study, figure, folder) && plots;
     if (!plots) notes.emplace_back("No plot-*.svg: gnuplot (package gnuplot-nox) is missing or failed.");
     const fs::path chart = find_chart();
     if (chart.empty())
@@ -218,6 +252,8 @@ std::vector<std::string> write_study(const Study& study, const fs::path& folder)
 }
 
 void print_table(const Study& study, std::FILE* out) {
+    print_costs(study, out);
+    if (study.rows.empty()) return;
     const Cells head = {"scene", "method", "knobs", "RMSE", "ns/point", "rays at equal RMSE", "speedup"};
     std::vector<std::pair<const char*, Cells>> lines;  // a mark and a row; empty between scenes
     for (const SceneInfo& scene : study.scenes) {
@@ -226,11 +262,21 @@ void print_table(const Study& study, std::FILE* out) {
         std::reverse(rows.begin(), rows.end());
         const auto coarse = [&](const Row* row) { return row != best && row->ray_ns_bound == Bound::upper; };
         rows.erase(std::remove_if(rows.begin(), rows.end(), coarse), rows.end());
+        const auto add = [&](const Row* row) {
+            if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+        };
+        std::vector<const Row*> bests;
+        for (const std::string& method : methods_on(study, scene.name)) {
+            bests.push_back(best_row(study, scene.name, method));
+            add(bests.back());
+        }
         for (const Row& row : study.rows)
-            if (row.is_default && row.scene == scene.name && std::find(rows.begin(), rows.end(), &row) == rows.end())
-                rows.push_back(&row);
+            if (row.is_default && row.scene == scene.name) add(&row);
         lines.emplace_back("", Cells());
-        for (const Row* row : rows) lines.emplace_back(row == best ? "★" : " ", cells(study, *row));
+        for (const Row* row : rows) {
+            const bool of_method = std::find(bests.begin(), bests.end(), row) != bests.end();
+            lines.emplace_back(row == best ? "★" : of_method ? "☆" : " ", cells(study, *row));
+        }
     }
     std::array<std::size_t, 7> widths{};
     for (std::size_t i = 0; i < widths.size(); ++i) {
@@ -246,8 +292,9 @@ void print_table(const Study& study, std::FILE* out) {
     }
     fmt::print(
         out,
-        "\n★ smallest RMSE. Below it, settings that no other beats in RMSE and time both, as long as the fewest\n"
-        "rays are not more accurate still, and the default. All {} settings are in study.csv.\n",
+        "\n★ smallest RMSE, ☆ of its method. Below ★, settings that no other beats in RMSE and time both, as long as\n"
+        "the fewest rays are not more accurate still; then each method's best and its default. All {} settings are in\n"
+        "study.csv.\n",
         study.rows.size());
 }
 

@@ -1,6 +1,8 @@
 #include "result.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <map>
 
 namespace penumbra::study {
 namespace {
@@ -54,9 +56,38 @@ std::vector<const Row*> pareto_front(const Study& study, const std::string& scen
     return front;
 }
 
-const Row* best_row(const Study& study, const std::string& scene) {
-    const std::vector<const Row*> front = pareto_front(study, scene);
-    return front.empty() ? nullptr : front.back();
+const Row* best_row(const Study& study, const std::string& scene, const std::string& method) {
+    const Row* best = nullptr;
+    for (const Row& row : study.rows) {
+        if (row.scene != scene || (!method.empty() && row.method != method)) continue;
+        const bool better = !best || row.rmse < best->rmse;
+        if (better || (row.rmse == best->rmse && row.ns_per_point < best->ns_per_point)) best = &row;
+    }
+    return best;
+}
+
+std::vector<std::string> methods_on(const Study& study, const std::string& scene) {
+    std::vector<std::string> methods;
+    for (const Row& row : study.rows)
+        if (row.scene == scene && std::find(methods.begin(), methods.end(), row.method) == methods.end())
+            methods.push_back(row.method);
+    return methods;
+}
+
+std::string file_name(const std::string& scene) {
+    std::string name;
+    for (const char c : scene) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    return name;
+}
+
+std::string plain_name(const std::string& name) {
+    static const std::map<std::string, std::string> names = {
+        {"n_buffer", "N-Buffer"}, {"mipmap", "mip-map"}, {"rectangles", "rectangles (the paper)"}};
+    const auto known = names.find(name);
+    if (known != names.end()) return known->second;
+    std::string text = name;
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
 }
 
 std::string knob_text(const Row& row, const std::string& knob, const std::string& fallback) {

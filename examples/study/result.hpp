@@ -22,7 +22,8 @@ struct Row {
     double rmse = 0.0, max_error = 0.0, bias = 0.0;
     double build_ms = 0.0, ns_per_point = 0.0;
     std::size_t bytes = 0;
-    bool is_default = false;  ///< the method's default options
+    bool is_default = false;     ///< the method's default options
+    double overlap_rmse = -1.0;  ///< where casters hide the same part of the light; negative if they do nowhere
 
     // What rays cost for the same RMSE; filled by compare_with_rays.
     double ray_ns_at_equal_rmse = -1.0;  ///< not positive if outside of the rays swept
@@ -38,9 +39,27 @@ struct Row {
 /// difference, whose legend is drawn below it.
 struct Picture {
     std::string scene;
+    std::string label;  ///< method, and what is special about the setting
     std::string title;  ///< method and knobs
     std::string method_png, truth_png, difference_png;
-    double rmse = 0.0;
+    double rmse = 0.0;  ///< of its row: the picture's truth has fewer rays
+};
+
+/// Plain wedges, wedges blended as in the paper, and truth, side by side, where silhouettes overlap: its Figures 1
+/// and 2.
+struct Triplet {
+    std::string scene, png;
+    double plain_rmse = 0.0, blended_rmse = 0.0;  ///< of visibility, at the points where silhouettes overlap
+};
+
+/// A point of a plot of cost against the size of a scene.
+struct Cost {
+    std::string figure;  ///< which plot: "spheres" or "triangles", what x counts
+    std::string series;
+    double x = 0.0, ns_per_point = 0.0;
+    double rmse = -1.0;      ///< negative if it was not measured
+    double build_ms = -1.0;  ///< negative likewise
+    bool at_least = false;   ///< the time is a lower bound
 };
 
 struct SceneInfo {
@@ -49,7 +68,8 @@ struct SceneInfo {
     std::size_t triangles = 0;
     std::string light;
     std::size_t points = 0;
-    double truth_noise = 0.0;  ///< standard error of the truth itself
+    std::size_t overlap_points = 0;  ///< those at which casters hide the same part of the light
+    double truth_noise = 0.0;        ///< standard error of the truth itself
 };
 
 struct Study {
@@ -59,6 +79,8 @@ struct Study {
     std::vector<Row> rows;
     std::vector<RayRow> ray_rows;
     std::vector<Picture> pictures;
+    std::vector<Triplet> triplets;
+    std::vector<Cost> costs;
 };
 
 /// Fills the ray figures of every row from `ray_rows` of its scene: the cheapest sampler at the row's RMSE.
@@ -67,8 +89,18 @@ void compare_with_rays(Study& study);
 /// The rows of `scene` that no other is better than in RMSE and time both, fastest first.
 std::vector<const Row*> pareto_front(const Study& study, const std::string& scene);
 
-/// The row of `scene` with the smallest RMSE, the faster one of equals; null if it has none.
-const Row* best_row(const Study& study, const std::string& scene);
+/// The row of `scene` with the smallest RMSE, the faster one of equals; of one method, or of all if none is named. Null
+/// if there is none.
+const Row* best_row(const Study& study, const std::string& scene, const std::string& method = "");
+
+/// The methods measured on `scene`, in order of first appearance.
+std::vector<std::string> methods_on(const Study& study, const std::string& scene);
+
+/// A name for files made from a scene's name: letters, digits, '-' and '_' only.
+std::string file_name(const std::string& scene);
+
+/// What people call a method, a knob or its value.
+std::string plain_name(const std::string& name);
 
 /// "slices 8, n_buffer, closing": numbers with their names, words alone, switches only where they are on. All
 /// knobs, or those that differ between rows of the same scene and method.

@@ -1,14 +1,13 @@
 #include "scene.hpp"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <assimp/Importer.hpp>
+#include <array>
 #include <cmath>
 #include <map>
-#include <random>
 #include <stdexcept>
+
+#include "meshes.hpp"
 
 namespace penumbra::study {
 namespace {
@@ -17,102 +16,29 @@ using Vec = Vec3<float>;
 
 constexpr const char* bunny_file = "/usr/share/glmark2/models/bunny.obj";
 
-/// Uniform numbers from a fixed seed, the same on every standard library.
-class Random {
-  public:
-    explicit Random(std::uint32_t seed) : engine_(seed) {}
-    float in(float low, float high) {
-        return low + (high - low) * static_cast<float>(engine_() >> 8) * (1.0F / 16777216.0F);
-    }
-    Vec direction() {
-        const float y = in(-1.0F, 1.0F), angle = in(0.0F, 2.0F * pi<float>), r = std::sqrt(1.0F - y * y);
-        return Vec(r * std::cos(angle), y, r * std::sin(angle));
-    }
-
-  private:
-    std::mt19937 engine_;
-};
-
-/// A parallelogram at `center` spanned by two half-sides, counter-clockwise seen against cross(u, v).
-void add_quad(Mesh<float>& mesh, const Vec& center, const Vec& u, const Vec& v) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec& corner : {center - u - v, center + u - v, center + u + v, center - u + v})
-        mesh.positions.push_back(corner);
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
-    mesh.triangles.emplace_back(first, first + 2, first + 3);
-}
-
-/// A closed box with half-sides u, v, w (right-handed), welded.
-Mesh<float> make_box(const Vec& center, const Vec& u, const Vec& v, const Vec& w) {
-    Mesh<float> mesh;
-    for (unsigned i = 0; i < 8; ++i)
-        mesh.positions.push_back(center + ((i & 1U) ? u : -u) + ((i & 2U) ? v : -v) + ((i & 4U) ? w : -w));
-    constexpr std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    for (const auto& q : quads) {
-        mesh.triangles.emplace_back(q[0], q[1], q[2]);
-        mesh.triangles.emplace_back(q[0], q[2], q[3]);
-    }
-    return mesh;
-}
-
-/// A sphere of 762 triangles of about equal size: two poles and 17 rings of 381 vertices in all.
-Mesh<float> make_sphere(const Vec& center, float radius) {
-    constexpr int rings = 17, ring_vertices = 381;
-    Mesh<float> mesh;
-    mesh.positions.push_back(center + Vec(0.0F, radius, 0.0F));
-    std::vector<std::uint32_t> first, count;
-    double wanted = 0.0, sines = 0.0;
-    for (int i = 1; i <= rings; ++i) sines += std::sin(pi<double> * i / (rings + 1));
-    std::uint32_t placed = 0;
-    for (int i = 1; i <= rings; ++i) {
-        const double theta = pi<double> * i / (rings + 1);
-        wanted += ring_vertices * std::sin(theta) / sines;
-        const auto n = static_cast<std::uint32_t>(std::lround(wanted)) - placed;
-        placed += n;
-        first.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-        count.push_back(n);
-        for (std::uint32_t k = 0; k < n; ++k) {
-            const double angle = 2.0 * pi<double> * k / n;
-            mesh.positions.push_back(center + radius * Vec(static_cast<float>(std::sin(theta) * std::cos(angle)),
-                                                           static_cast<float>(std::cos(theta)),
-                                                           static_cast<float>(-std::sin(theta) * std::sin(angle))));
-        }
-    }
-    mesh.positions.push_back(center - Vec(0.0F, radius, 0.0F));
-    const auto south = static_cast<std::uint32_t>(mesh.positions.size() - 1);
-    for (std::uint32_t k = 0; k < count.front(); ++k)
-        mesh.triangles.emplace_back(0U, first.front() + k, first.front() + (k + 1) % count.front());
-    for (std::size_t ring = 0; ring + 1 < first.size(); ++ring) {
-        const std::uint32_t a0 = first[ring], an = count[ring], b0 = first[ring + 1], bn = count[ring + 1];
-        // walk both rings by angle; each step makes one triangle
-        for (std::uint32_t i = 0, j = 0; i < an || j < bn;) {
-            const bool step_a = j == bn || (i < an && (i + 1) * bn <= (j + 1) * an);
-            if (step_a) {
-                mesh.triangles.emplace_back(a0 + i % an, b0 + j % bn, a0 + (i + 1) % an);
-                ++i;
-            } else {
-                mesh.triangles.emplace_back(a0 + i % an, b0 + j % bn, b0 + (j + 1) % bn);
-                ++j;
-            }
-        }
-    }
-    for (std::uint32_t k = 0; k < count.back(); ++k)
-        mesh.triangles.emplace_back(south, first.back() + (k + 1) % count.back(), first.back() + k);
-    return mesh;
-}
-
 RectLight<float> light_above(const Vec& center, float half_size) {
     return {center, Vec(half_size, 0.0F, 0.0F), Vec(0.0F, 0.0F, half_size)};  // emits along −y
+}
+
+void add_ground(Scene& scene) {
+    add_quad(scene.ground, Vec(0.0F, 0.0F, 0.0F), Vec(12.0F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -12.0F));
+}
+
+/// `side` × `side` spheres, 1 apart, in a layer above the ground.
+std::vector<Mesh<float>> sphere_layer(int side) {
+    std::vector<Mesh<float>> meshes;
+    const float middle = 0.5F * static_cast<float>(side - 1);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column)
+            meshes.push_back(
+                make_sphere(Vec(static_cast<float>(column) - middle, 1.5F, static_cast<float>(row) - middle), 0.36F));
+    return meshes;
 }
 
 Scene spheres() {
     Scene scene;
     scene.about = "9 × 9 spheres of 762 triangles in a layer above a plane.";
-    for (int row = 0; row < 9; ++row)
-        for (int column = 0; column < 9; ++column)
-            scene.casters.push_back(
-                make_sphere(Vec(static_cast<float>(column - 4), 1.5F, static_cast<float>(row - 4)), 0.36F));
+    scene.casters = sphere_layer(9);
     scene.light = light_above(Vec(0.0F, 9.0F, 0.0F), 2.0F);
     scene.camera = {Vec(0.0F, 6.5F, 11.0F), Vec(0.0F, 0.6F, 0.6F), 0.50F};
     return scene;
@@ -121,6 +47,7 @@ Scene spheres() {
 Scene foliage() {
     Scene scene;
     scene.about = "50,000 random leaf triangles in the crowns of 24 trees.";
+    scene.subject = Subject::occlusion_textures;
     Mesh<float> leaves;
     Random random(20061);
     std::vector<Vec> crowns;
@@ -129,15 +56,11 @@ Scene foliage() {
                             static_cast<float>(tree / 6) * 2.6F - 4.6F + random.in(-0.7F, 0.7F));
     for (int leaf = 0; leaf < 50000; ++leaf) {
         const Vec& crown = crowns[static_cast<std::size_t>(leaf) % crowns.size()];
-        const Vec at = crown + random.direction() * std::cbrt(random.in(0.0F, 1.0F)) * Vec(1.3F, 1.0F, 1.3F);
-        const Vec normal = random.direction(), side = any_perpendicular(normal), up = glm::cross(normal, side);
-        const float size = random.in(0.04F, 0.08F), turn = random.in(0.0F, 2.0F * pi<float>);
-        const auto first = static_cast<std::uint32_t>(leaves.positions.size());
-        for (int corner = 0; corner < 3; ++corner) {
-            const float angle = turn + static_cast<float>(corner) * 2.0F * pi<float> / 3.0F;
-            leaves.positions.push_back(at + size * (std::cos(angle) * side + std::sin(angle) * up));
-        }
-        leaves.triangles.emplace_back(first, first + 1, first + 2);
+        const Vec away = random.direction();
+        const Vec at = crown + away * std::cbrt(random.in(0.0F, 1.0F)) * Vec(1.3F, 1.0F, 1.3F);
+        const Vec normal = random.direction();
+        const float size = random.in(0.04F, 0.08F);
+        add_leaf(leaves, at, normal, size, random.in(0.0F, 2.0F * pi<float>));
     }
     scene.casters.push_back(std::move(leaves));
     scene.light = light_above(Vec(0.0F, 12.0F, 0.0F), 1.8F);
@@ -148,6 +71,7 @@ Scene foliage() {
 Scene sheet() {
     Scene scene;
     scene.about = "A thin sheet at 45°: the worst case for leaks between slices.";
+    scene.subject = Subject::occlusion_textures;
     Mesh<float> quad;
     add_quad(quad, Vec(0.0F, 2.0F, 0.0F), Vec(1.2F, 1.2F, 0.0F), Vec(0.0F, 0.0F, -1.6F));
     scene.casters.push_back(std::move(quad));
@@ -159,6 +83,7 @@ Scene sheet() {
 Scene slab() {
     Scene scene;
     scene.about = "A thick slab parallel to the ground.";
+    scene.subject = Subject::occlusion_textures;
     scene.casters.push_back(
         make_box(Vec(0.0F, 2.0F, 0.0F), Vec(1.5F, 0.0F, 0.3F), Vec(0.0F, 0.35F, 0.0F), Vec(-0.2F, 0.0F, 1.0F)));
     scene.light = light_above(Vec(0.0F, 7.0F, 0.0F), 1.0F);
@@ -183,33 +108,100 @@ Scene boxes() {
     return scene;
 }
 
-/// Every mesh of the file as one caster, vertices at one place welded.
-Mesh<float> import_mesh(const std::string& file) {
-    Assimp::Importer importer;
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TEXCOORDS |
-                                                            aiComponent_COLORS | aiComponent_TANGENTS_AND_BITANGENTS);
-    const aiScene* imported =
-        importer.ReadFile(file, aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                                    aiProcess_PreTransformVertices | aiProcess_SortByPType);
-    if (imported == nullptr)
-        throw std::runtime_error(fmt::format("cannot read mesh '{}': {}", file, importer.GetErrorString()));
-    Mesh<float> mesh;
-    for (unsigned m = 0; m < imported->mNumMeshes; ++m) {
-        const aiMesh& part = *imported->mMeshes[m];
-        if (!(part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE)) continue;
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (unsigned i = 0; i < part.mNumVertices; ++i)
-            mesh.positions.emplace_back(part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z);
-        for (unsigned f = 0; f < part.mNumFaces; ++f) {
-            const aiFace& face = part.mFaces[f];
-            if (face.mNumIndices == 3)
-                mesh.triangles.emplace_back(first + face.mIndices[0], first + face.mIndices[1],
-                                            first + face.mIndices[2]);
+Scene bunny() {
+    Scene scene = load_scene(bunny_file, 1.0F);
+    scene.about = fmt::format("The Stanford bunny, {} triangles.", scene.triangle_count());
+    return scene;
+}
+
+/// The light and the camera of scenes of planar casters.
+Scene planar(const std::string& about) {
+    Scene scene;
+    scene.about = about;
+    scene.subject = Subject::overlap;
+    scene.light = light_above(Vec(0.0F, 8.0F, 0.0F), 1.5F);
+    scene.camera = {Vec(2.2F, 5.6F, 7.6F), Vec(0.0F, 1.5F, 0.0F), 0.42F};
+    return scene;
+}
+
+/// `count` convex polygons in a cylinder above the ground, the smaller the more there are of them, so that the light is
+/// seldom blocked as a whole.
+Scene random_polygons(int count) {
+    Scene scene = planar(fmt::format("{} polygons at random depths: shadows overlap by chance.", count));
+    Random random(2006U + static_cast<std::uint32_t>(count));
+    const float size = 1.05F * std::pow(static_cast<float>(count) * 0.5F, -0.3F), spread = 0.9F / size;
+    for (int i = 0; i < count; ++i) {
+        const float turn = random.in(0.0F, 2.0F * pi<float>);
+        const float away = spread * std::sqrt(random.in(0.0F, 1.0F));
+        const Vec at(away * std::cos(turn), random.in(1.6F, 4.6F), away * std::sin(turn));
+        const Vec normal = glm::normalize(random.direction() * 0.7F + Vec(0.0F, 1.0F, 0.0F));
+        const Vec u = any_perpendicular(normal), v = glm::cross(normal, u);
+        const int corners = 3 + static_cast<int>(random.in(0.0F, 4.99F));
+        const float long_side = size * random.in(0.8F, 1.3F), short_side = size * random.in(0.5F, 0.9F);
+        std::vector<Vec> polygon;
+        for (int k = 0; k < corners; ++k) {
+            const float angle =
+                (static_cast<float>(k) + random.in(-0.3F, 0.3F)) * 2.0F * pi<float> / static_cast<float>(corners);
+            polygon.push_back(at + long_side * std::cos(angle) * u + short_side * std::sin(angle) * v);
         }
+        scene.casters.push_back(make_polygon(polygon));
     }
-    if (mesh.triangles.empty()) throw std::runtime_error(fmt::format("mesh '{}' has no triangles", file));
-    if (!validate(mesh, file)) throw std::runtime_error(fmt::format("mesh '{}' is not valid", file));
-    return mesh;
+    return scene;
+}
+
+Scene spheres_low() { return low_spheres(9); }
+Scene overlap_2() { return random_polygons(2); }
+Scene overlap_5() { return random_polygons(5); }
+Scene overlap_20() { return random_polygons(20); }
+Scene overlap_81() { return random_polygons(81); }
+
+Scene comb() {
+    Scene scene = planar("Two combs, each slat of one between two of the other: bounds overlap, slats do not.");
+    for (int which = 0; which < 2; ++which) {
+        Mesh<float> mesh;
+        for (int slat = 0; slat < 7; ++slat)
+            add_quad(mesh, Vec(static_cast<float>(2 * slat + which) * 0.22F - 1.43F, 2.5F, 0.0F),
+                     Vec(0.08F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -1.4F));
+        scene.casters.push_back(std::move(mesh));
+    }
+    return scene;
+}
+
+Scene fan() {
+    Scene scene = planar("16 triangles around a point, each sharing its sides with its neighbours: nothing overlaps.");
+    constexpr int blades = 16;
+    std::array<Vec, blades> rim;
+    for (std::size_t i = 0; i < blades; ++i) {
+        const float angle = static_cast<float>(i) * 2.0F * pi<float> / blades, size = i % 2 ? 1.1F : 1.7F;
+        rim[i] = Vec(size * std::cos(angle), 2.5F + 0.35F * std::cos(angle), -size * std::sin(angle));
+    }
+    for (std::size_t i = 0; i < blades; ++i)
+        scene.casters.push_back(make_polygon({Vec(0.0F, 2.5F, 0.0F), rim[i], rim[(i + 1) % blades]}));
+    return scene;
+}
+
+struct Named {
+    const char* name;
+    Scene (*make)();
+};
+constexpr Named built_in[] = {{"spheres", spheres},
+                              {"foliage", foliage},
+                              {"sheet", sheet},
+                              {"slab", slab},
+                              {"boxes", boxes},
+                              {"bunny", bunny},
+                              {"spheres-low", spheres_low},
+                              {"overlap-2", overlap_2},
+                              {"overlap-5", overlap_5},
+                              {"overlap-20", overlap_20},
+                              {"overlap-81", overlap_81},
+                              {"comb", comb},
+                              {"fan", fan}};
+
+void scale_light(Scene& scene, float size) {
+    scene.light.half_u *= size;
+    scene.light.half_v *= size;
+    if (size != 1.0F) scene.name += fmt::format(", light × {:g}", size);
 }
 
 }  // namespace
@@ -225,7 +217,11 @@ std::string Scene::light_text() const {
                        2.0F * glm::length(light.half_v), light.center.y);
 }
 
-std::vector<std::string> scene_names() { return {"spheres", "foliage", "sheet", "slab", "boxes", "bunny"}; }
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    for (const Named& scene : built_in) names.emplace_back(scene.name);
+    return names;
+}
 
 Scene load_scene(const std::string& file, float light_size) {
     Mesh<float> mesh = import_mesh(file);
@@ -240,29 +236,36 @@ Scene load_scene(const std::string& file, float light_size) {
     scene.name = file.substr(file.find_last_of('/') + 1);
     scene.about = fmt::format("{} triangles, scaled to 3 units, above the ground.", mesh.triangles.size());
     scene.casters.push_back(std::move(mesh));
-    scene.light = light_above(Vec(1.5F, 7.0F, 1.5F), 0.8F * light_size);
+    scene.light = light_above(Vec(1.5F, 7.0F, 1.5F), 0.8F);
     scene.camera = {Vec(2.5F, 4.5F, 9.0F), Vec(-0.2F, 1.1F, 0.0F), 0.33F};
-    add_quad(scene.ground, Vec(0.0F, 0.0F, 0.0F), Vec(12.0F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -12.0F));
+    add_ground(scene);
+    scale_light(scene, light_size);
+    return scene;
+}
+
+Scene low_spheres(int side) {
+    Scene scene;
+    scene.about = fmt::format("{} × {} spheres under a low light, which sees them one behind the other.", side, side);
+    scene.subject = Subject::overlap;
+    scene.casters = sphere_layer(side);
+    const Vec at(0.0F, 7.5F, -12.0F), down = glm::normalize(Vec(0.0F, 0.0F, 2.5F) - at), right(1.0F, 0.0F, 0.0F);
+    scene.light = {at, right * 1.5F, glm::cross(down, right) * 1.5F};
+    scene.camera = {Vec(0.0F, 5.5F, 13.0F), Vec(0.0F, 0.2F, 3.6F), 0.42F};
+    add_ground(scene);
     return scene;
 }
 
 Scene make_scene(const std::string& name, float light_size) {
-    if (name == "bunny") {
-        Scene scene = load_scene(bunny_file, light_size);
+    for (const Named& named : built_in) {
+        if (name != named.name) continue;
+        Scene scene = named.make();
         scene.name = name;
-        scene.about = fmt::format("The Stanford bunny, {} triangles.", scene.triangle_count());
+        scene.ground = {};
+        add_ground(scene);
+        scale_light(scene, light_size);
         return scene;
     }
-    static const std::map<std::string, Scene (*)()> makers = {
-        {"spheres", spheres}, {"foliage", foliage}, {"sheet", sheet}, {"slab", slab}, {"boxes", boxes}};
-    const auto maker = makers.find(name);
-    if (maker == makers.end()) throw std::runtime_error(fmt::format("there is no scene '{}'", name));
-    Scene scene = maker->second();
-    scene.name = name;
-    scene.light.half_u *= light_size;
-    scene.light.half_v *= light_size;
-    add_quad(scene.ground, Vec(0.0F, 0.0F, 0.0F), Vec(12.0F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -12.0F));
-    return scene;
+    throw std::runtime_error(fmt::format("there is no scene '{}'", name));
 }
 
 }  // namespace penumbra::study

@@ -15,6 +15,13 @@ struct Camera {
     float width_tan = 0.4F;
 };
 
+/// What a scene is there to compare.
+enum class Subject {
+    methods,             ///< all of them, with all their settings
+    occlusion_textures,  ///< their settings; other methods by their defaults
+    overlap              ///< what rules make of casters that one sees before each other
+};
+
 /// World space, y up, the ground at y = 0. The ground receives but does not cast.
 struct Scene {
     std::string name;
@@ -23,19 +30,24 @@ struct Scene {
     Mesh<float> ground;
     RectLight<float> light;
     Camera camera;
+    Subject subject = Subject::methods;
 
     std::size_t triangle_count() const;
     std::string light_text() const;  ///< "rectangle 4 × 4, 9 above the ground"
 };
 
-/// The built-in scenes, in the order of the report: spheres, foliage, sheet, slab, boxes, bunny.
+/// The built-in scenes, in the order of the report.
 std::vector<std::string> scene_names();
 
-/// A built-in scene by name, its light's sides multiplied by `light_size`. Throws std::runtime_error with a
-/// message for the user if there is none of that name or if the bunny's package is missing.
+/// A built-in scene by name, its light's sides multiplied by `light_size`; a size other than 1 goes into its name.
+/// Throws std::runtime_error with a message for the user if there is none of that name or if the bunny's package is
+/// missing.
 Scene make_scene(const std::string& name, float light_size);
 
 /// Any mesh file that assimp reads, scaled and stood on the ground under a light that fits it.
 Scene load_scene(const std::string& file, float light_size);
+
+/// The scene `spheres-low`, with `side` × `side` spheres.
+Scene low_spheres(int side);
 
 }  // namespace penumbra::study

@@ -1,14 +1,72 @@
-// The settings that the study measures.
+// The settings of methods that the study measures.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <penumbra/geometry.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "measure.hpp"
+#include "scene.hpp"
 
 namespace penumbra::study {
 
-/// Settings of OcclusionTextureShadow: slices, rules, filters and the rest, swept around the default; `quick` takes a
-/// handful.
-std::vector<Setting> occlusion_texture_settings(bool quick);
+/// A method built for one scene: what is timed is `visibility`, over a whole batch on one thread.
+struct Built {
+    std::function<void(const Vec3<float>* points, std::size_t count, float* result)> visibility;
+    std::size_t bytes = 0;
+};
+
+/// Visibility at all points, on all cores.
+std::vector<float> ask(const Built& built, const std::vector<Vec3<float>>& points);
+
+/// A setting to measure.
+struct Setting {
+    std::string method;
+    nlohmann::ordered_json knobs;
+    bool is_default = false;
+    std::function<Built(const Scene&)> build;
+};
+
+/// The setting of `Shadow` with the given options.
+template <class Shadow>
+Setting make_setting(const std::string& method, const nlohmann::ordered_json& knobs, bool is_default,
+                     const typename Shadow::Options& options) {
+    return {method, knobs, is_default, [options](const Scene& scene) {
+                const auto shadow = std::make_shared<const Shadow>(scene.casters, scene.light, options);
+                return Built{[shadow](const Vec3<float>* points, std::size_t count, float* result) {
+                                 shadow->visibility(points, count, result);
+                             },
+                             shadow->bytes()};
+            }};
+}
+
+/// How many settings of a method.
+enum class Sweep { none, one, few, all };
+
+/// occlusion_texture, penumbra_wedge.
+std::vector<std::string> method_names();
+
+/// Settings of a method, the default first.
+std::vector<Setting> settings_of(const std::string& method, Sweep sweep);
+
+/// Settings of the methods that are wanted, of all if none is named. Methods that are not named get few settings on
+/// scenes that are there to compare something else.
+std::vector<Setting> settings_for(const Scene& scene, const std::vector<std::string>& wanted, bool quick);
+
+/// OcclusionTextureShadow: slices, rules, filters and the rest, swept around the default.
+std::vector<Setting> occlusion_texture_settings(Sweep sweep);
+
+/// PenumbraWedgeShadow: every rule for overlap, with silhouettes from the light's centre and from each point.
+std::vector<Setting> penumbra_wedge_settings(Sweep sweep);
+
+/// Plain wedges, wedges as the paper blends them, and the default: what pictures and plots of its figures compare.
+struct WedgeFigure {
+    Setting plain, blended, ours;
+};
+WedgeFigure wedge_figure();
 
 }  // namespace penumbra::study

@@ -1,5 +1,8 @@
 #include "view.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace penumbra::study {
 namespace {
 
@@ -53,16 +56,14 @@ View look(const Scene& scene, int width, int height) {
     return view;
 }
 
-std::vector<std::size_t> spread(const View& view, std::size_t count) {
-    constexpr std::size_t run = 32;  // half a tile: rays and methods both profit from neighbours, as in a picture
+std::vector<std::size_t> spread(const View& view, std::size_t count, std::size_t run) {
+    const std::size_t all = view.points.size(), runs = std::max<std::size_t>(std::min(count, all) / run, 1);
+    const std::size_t last = all - std::min(run, all);
+    std::size_t step = runs * 5 / 8 + 1;
+    while (std::gcd(step, runs) != 1) ++step;  // so that each run comes up once
     std::vector<std::size_t> chosen;
-    const std::size_t all = view.points.size(), runs = std::max<std::size_t>(count / run, 1);
-    if (count >= all) {
-        for (std::size_t i = 0; i < all; ++i) chosen.push_back(i);
-        return chosen;
-    }
     for (std::size_t k = 0; k < runs; ++k)
-        for (std::size_t i = 0; i < std::min(run, count); ++i) chosen.push_back(k * (all - run) / runs + i);
+        for (std::size_t i = 0; i < std::min(run, all); ++i) chosen.push_back(k * step % runs * last / runs + i);
     return chosen;
 }
 

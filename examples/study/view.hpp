@@ -23,8 +23,8 @@ struct View {
 
 View look(const Scene& scene, int width, int height);
 
-/// About `count` of the points, in runs of 32 neighbours spread evenly through the picture: what figures are measured
-/// on.
-std::vector<std::size_t> spread(const View& view, std::size_t count);
+/// About `count` of the points, in runs of neighbours spread evenly through the picture; runs come in an order whose
+/// beginning is spread likewise.
+std::vector<std::size_t> spread(const View& view, std::size_t count, std::size_t run);
 
 }  // namespace penumbra::study

@@ -21,7 +21,10 @@ const error = x => x.toFixed(4);
 const whole = x => x.toLocaleString("en-US");
 const bytes = x => x >= 1 << 20 ? digits(x / (1 << 20)) + " MiB" : digits(x / 1024) + " KiB";
 const knobText = value => value === true ? "yes" : value === false ? "no" : value === undefined ? "" : String(value);
-const names = { n_buffer: "N-Buffer", mipmap: "mip-map", summed_area: "summed area", r2: "R2", sobol: "Sobol" };
+const names = {
+  n_buffer: "N-Buffer", mipmap: "mip-map", summed_area: "summed area", rectangles: "rectangles (the paper)",
+  r2: "R2", sobol: "Sobol", "r2 coherent": "R2 coherent", "sobol coherent": "Sobol coherent",
+};
 const plain = name => names[name] ?? name.replaceAll("_", " ");
 
 /** A figure that may only be bounded, with the value it sorts by. */
@@ -47,26 +50,36 @@ const distinct = values => [...new Set(values)];
 const knobNames = rows => distinct(rows.flatMap(row => Object.keys(row.knobs)));
 const valueOf = (row, key) => key === "method" ? row.method : knobText(row.knobs[key]);
 const valuesOf = (rows, key) => distinct(rows.map(row => valueOf(row, key)));
-const varying = rows => ["method", ...knobNames(rows)].filter(key => valuesOf(rows, key).length > 1);
+const ofMethod = (rows, method) => rows.filter(row => row.method === method);
+const varying = rows => knobNames(rows).filter(key => valuesOf(rows, key).length > 1);
 /** "slices 8, N-Buffer, product, closing": names of numbers, but words alone, and switches only where they are on. */
 const knobsOf = (row, keys) => keys.map(key => {
-  const value = key === "method" ? row.method : row.knobs[key];
+  const value = row.knobs[key];
   if (typeof value === "number") return `${plain(key)} ${value}`;
   return value === true ? plain(key) : value ? plain(String(value)) : "";
 }).filter(Boolean).join(", ");
 
 const scenes = data.scenes.map((info, index) => {
   const rows = data.rows.filter(row => row.scene === info.name);
-  const front = paretoFront(rows);
+  const methods = distinct(rows.map(row => row.method)).map(name => {
+    const own = ofMethod(rows, name), front = paretoFront(own);
+    return { name, rows: own, keys: varying(own), best: front[front.length - 1], default: own.find(row => row.default) };
+  });
+  const knobs = distinct(methods.flatMap(method => method.keys));
   return {
-    ...info, index, rows, front, id: "scene-" + (index + 1),
+    ...info, index, rows, methods, front: paretoFront(rows), id: "scene-" + (index + 1),
     rays: data.rays.filter(row => row.scene === info.name),
     pictures: data.pictures.filter(picture => picture.scene === info.name),
-    keys: varying(rows),
-    best: front[front.length - 1],
-    default: rows.find(row => row.default),
+    triplet: data.triplets.find(triplet => triplet.scene === info.name),
+    keys: methods.length > 1 ? ["method", ...knobs] : knobs,
+    best: paretoFront(rows).pop(),
   };
 });
+/** What a row's own method varies on the scene. */
+const ownKnobs = (scene, row) => knobsOf(row, scene.methods.find(method => method.name === row.method).keys);
+
+const costFigures = distinct(data.costs.map(cost => cost.figure));
+const costPlot = figure => ({ name: "cost against " + figure, plot: `plot-cost-${figure}.svg` });
 
 // ---------------------------------------------------------------- head and summary
 
@@ -75,15 +88,17 @@ function drawHead() {
   const count = (n, what) => `${whole(n)} ${what}${n === 1 ? "" : "s"}`;
   const facts = [["Machine", study.machine], ["Compiler", study.compiler], ["Flags", study.flags], ["Date", study.date],
     ["Truth", `${whole(study.truth_rays)} stratified rays a point`], ["Threads", "one, for the methods and for Embree"]];
-  $("#lede").append("What a soft shadow costs, and how far it is from the truth: ",
-    el("strong", {}, count(data.rows.length, "setting")), ` of ${methods.map(plain).join(", ")} on `,
+  if (data.rows.length) $("#lede").append("What a soft shadow costs, and how far it is from the truth: ",
+    el("strong", {}, count(data.rows.length, "setting")), ` of ${methods.map(plain).join(" and ")} on `,
     el("strong", {}, count(scenes.length, "scene")), ", beside Embree tracing rays at the same points in the same run.");
+  else $("#lede").append("What a soft shadow costs as its scene grows.");
   $("#command").textContent = "$ " + study.command;
   for (const [term, text] of facts) if (text) $("#facts").append(el("div", {}, el("dt", {}, term), el("dd", {}, text)));
   const list = el("ul");
+  if (costFigures.length) list.append(el("li", {}, el("a", { href: "#cost" }, "cost against size")));
   for (const scene of scenes) list.append(el("li", {}, el("a", { href: "#" + scene.id }, scene.name)));
   $("#nav").append(list);
-  scenes.forEach((scene, i) => $("#plots").append(i ? ", " : "", el("a", { href: scene.plot }, scene.name)));
+  [...costFigures.map(costPlot), ...scenes].forEach((it, i) => $("#plots").append(i ? ", " : "", el("a", { href: it.plot }, it.name)));
 }
 
 function drawSummary() {
@@ -93,17 +108,20 @@ function drawSummary() {
     : [number("–", rule), number("–"), number("–")];
   const heads = rule => [el("th", { scope: "col", class: "number " + rule }, "RMSE"),
     el("th", { scope: "col", class: "number" }, "ns/point"), el("th", { scope: "col", class: "number" }, "speed-up")];
-  const withDefault = scenes.some(scene => scene.default);
+  if (!scenes.length) return $("#results").remove();
+  const lines = scenes.flatMap(scene => scene.methods.map((method, i) => el("tr", { class: i ? "same" : "" },
+    i ? null : el("th", { scope: "row", rowspan: scene.methods.length }, el("a", { href: "#" + scene.id }, scene.name)),
+    i ? null : el("td", { class: "number", rowspan: scene.methods.length }, whole(scene.triangles)),
+    el("td", {}, plain(method.name)), ...three(method.default, "rule"), ...three(method.best, "rule"),
+    el("td", { class: "knobs" }, method.best === method.default ? "default options" : knobsOf(method.best, method.keys)))));
   $("#summary").append(
     el("thead", {},
       el("tr", {}, el("th", { rowspan: 2, scope: "col" }, "Scene"), el("th", { rowspan: 2, scope: "col", class: "number" }, "triangles"),
-        withDefault ? el("th", { colspan: 3, scope: "colgroup", class: "rule" }, "default options") : null,
+        el("th", { rowspan: 2, scope: "col" }, "method"),
+        el("th", { colspan: 3, scope: "colgroup", class: "rule" }, "default options"),
         el("th", { colspan: 4, scope: "colgroup", class: "rule" }, "smallest error")),
-      el("tr", {}, ...(withDefault ? heads("rule") : []), ...heads("rule"), el("th", { scope: "col" }, "at"))),
-    el("tbody", {}, ...scenes.map(scene => el("tr", {},
-      el("th", { scope: "row" }, el("a", { href: "#" + scene.id }, scene.name)), number(whole(scene.triangles)),
-      ...(withDefault ? three(scene.default, "rule") : []), ...three(scene.best, "rule"),
-      el("td", { class: "knobs" }, scene.best ? knobsOf(scene.best, scene.keys) : "")))));
+      el("tr", {}, ...heads("rule"), ...heads("rule"), el("th", { scope: "col" }, "at"))),
+    el("tbody", {}, ...lines));
   $("#summary-caption").append(el("b", {}, "Table 1. "),
     "Error and time of each scene. Speed-up is against the cheapest of Embree's samplers at the same error.");
   const reading = [
@@ -111,6 +129,7 @@ function drawSummary() {
     ["ns/point", "Time of one query, of many in one call, on one thread."],
     ["rays", "How many rays a point Embree's cheapest sampler needs for the same RMSE, interpolated between 4 and 1024."],
     ["speed-up", "What those rays cost, divided by what the method costs. “> 40×” where even the most rays are less accurate than the method, “< 2×” where the fewest are already more accurate."],
+    ["overlap", "RMSE at the points from which casters hide the same part of the light, more than 1 % of it."],
     ["bias", "Mean of method − truth: positive is too bright, negative too dark."],
     ["best for its time", "No other setting beats it in error and time both."],
   ];
@@ -162,7 +181,7 @@ function drawPictures(scene, root) {
     $(".compare figcaption", root).replaceChildren(el("b", {}, `Figure ${scene.index + 1}a. `), `${picture.title}, and `,
       `truth. Drag the handle, or focus it and use the arrow keys.`);
     $("figcaption", difference).replaceChildren(el("b", {}, `Figure ${scene.index + 1}b. `),
-      `Signed difference of visibility, method − truth; RMSE ${error(picture.rmse)}. Grey: not asked.`);
+      `Signed difference of visibility, method − truth; RMSE ${error(picture.rmse)}. Specks are noise of the picture's truth. Grey: not asked.`);
   };
   if (scene.pictures.length > 1) drawTabs(scene.pictures, tabs, show);
   show(scene.pictures[0]);
@@ -172,7 +191,7 @@ function drawPictures(scene, root) {
 /** A group of radio buttons: arrow keys choose, Tab leaves. */
 function drawTabs(pictures, tabs, show) {
   const buttons = pictures.map((picture, i) => {
-    const button = el("button", { type: "button", role: "radio" }, picture.title);
+    const button = el("button", { type: "button", role: "radio" }, picture.label);
     button.addEventListener("click", () => choose(i));
     return button;
   });
@@ -199,7 +218,10 @@ function drawTabs(pictures, tabs, show) {
 
 const shapes = ["circle", "rect", "triangle", "rectRot", "star"];
 const shapePaths = ["M12 3.6a4 4 0 1 0 .01 0z", "M8.4 4h7.2v7.2H8.4z", "M12 3.2l4.6 8H7.4z", "M12 2.6l5 5-5 5-5-5z", "M12 2.6v10M7.7 5.1l8.6 5M7.7 10.1l8.6-5"];
-const dashes = [[], [7, 4], [2, 3]];
+const dashes = { stratified: [], r2: [7, 4], sobol: [2, 3] };
+const hueCount = 10;
+/** Which shape stands for a value: with one key for colour and shape, shapes tell apart what shares a colour. */
+const shapeOf = (state, forms, form) => (state.shape === state.hue ? Math.floor(forms.indexOf(form) / hueCount) : forms.indexOf(form)) % shapes.length;
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /** A button (or plain text) of the plot's key, with a small drawing of what it stands for. */
@@ -223,12 +245,13 @@ function keyEntry(text, drawing, onToggle) {
 }
 
 function rayCurves(scene) {
-  const samplers = distinct(scene.rays.map(row => row.sampler));
   return distinct(scene.rays.map(row => row.sampler + "|" + row.packet)).map(key => {
     const [sampler, packet] = key.split("|");
+    const [pattern, coherent] = sampler.split(" "), packets = Number(packet);
+    const ink = coherent ? "ink" : packets > 1 ? "soft" : "faint";
     return {
-      label: `${plain(sampler)}, ${packet > 1 ? "packets of " + packet : "single"}`,
-      short: `${plain(sampler)}, ${packet > 1 ? "packets" : "single"}`, packets: Number(packet), dash: dashes[samplers.indexOf(sampler) % dashes.length],
+      label: `${plain(sampler)}, ${packets > 1 ? "packets of " + packets : "single"}`, packets, ink, dash: dashes[pattern],
+      short: coherent ? plain(sampler) : `${plain(sampler)}, ${packets > 1 ? "packets" : "single"}`, width: { ink: 1.9, soft: 1.5, faint: 1.1 }[ink],
       points: scene.rays.filter(row => row.sampler === sampler && row.packet === Number(packet)),
     };
   });
@@ -237,11 +260,11 @@ function rayCurves(scene) {
 const point = row => ({ x: row.ns_per_point, y: row.rmse, row });
 
 function datasets(scene, state, size) {
-  const ink = css("--soft"), faint = css("--faint"), accent = css("--accent");
+  const accent = css("--accent");
   const hues = valuesOf(scene.rows, state.hue), forms = valuesOf(scene.rows, state.shape);
   const sets = hues.map((hue, i) => {
-    const rows = scene.rows.filter(row => valueOf(row, state.hue) === hue), color = css("--hue-" + i % 5);
-    const styles = rows.map(row => shapes[forms.indexOf(valueOf(row, state.shape)) % shapes.length]);
+    const rows = scene.rows.filter(row => valueOf(row, state.hue) === hue), color = css("--hue-" + i % hueCount);
+    const styles = rows.map(row => shapes[shapeOf(state, forms, valueOf(row, state.shape))]);
     return {
       kind: "rows", label: hue, data: rows.map(point), showLine: false, order: 1, pointStyle: styles,
       pointRadius: rows.map((row, k) => size * ((styles[k] === "circle" ? 3.6 : 4.4) + (row.default ? 2.5 : 0))),
@@ -256,8 +279,8 @@ function datasets(scene, state, size) {
   for (const curve of rayCurves(scene))
     sets.push({
       kind: "rays", label: curve.label, data: curve.points.map(point), order: 4, borderDash: curve.dash,
-      borderColor: curve.packets > 1 ? ink : faint, borderWidth: curve.packets > 1 ? 1.8 : 1.1, pointRadius: curve.packets > 1 ? 2 : 1.4,
-      pointBackgroundColor: curve.packets > 1 ? ink : faint, pointBorderWidth: 0, pointHitRadius: 5,
+      borderColor: css("--" + curve.ink), borderWidth: curve.width, pointRadius: curve.width, pointBackgroundColor: css("--" + curve.ink),
+      pointBorderWidth: 0, pointHitRadius: 5,
     });
   return sets;
 }
@@ -307,7 +330,7 @@ function drawPlot(scene, root) {
   const figure = $(".plot", root), tools = $(".plot-tools", figure), canvas = $("canvas", figure);
   const caption = $("figcaption", figure), packets = distinct(rayCurves(scene).map(curve => curve.packets)).filter(n => n > 1);
   caption.append(el("b", {}, `Figure ${scene.index + 1}c. `), `Error against time on ${scene.name}: lower and further left is better. ` +
-    `Each mark is one setting, the largest the default; each line is one of Embree's samplers, from few rays to many` +
+    `Each mark is one setting, the largest a default; each line is one of Embree's samplers, from few rays to many` +
     `${packets.length ? `, alone or in packets of ${packets.join(" or ")}` : ""}.`);
   if (!window.Chart) {
     $(".canvas", figure).replaceWith(el("img", { src: scene.plot, alt: caption.textContent }));
@@ -315,9 +338,8 @@ function drawPlot(scene, root) {
     return () => {};
   }
   const keys = scene.keys.length ? scene.keys : ["method"];
-  const pick = (wanted, other) => keys.includes(wanted) ? wanted : keys.find(key => key !== other) ?? keys[0];
-  const state = { hue: pick("filter"), hidden: new Set() };
-  state.shape = pick("combination", state.hue);
+  const pick = wanted => wanted.find(key => keys.includes(key)) ?? keys[0];
+  const state = { hue: pick(["method", "overlap", "filter"]), shape: pick(["method", "silhouette", "combination"]), hidden: new Set() };
   Chart.defaults.font.family = css("--sans");
   const chart = new Chart(canvas, { type: "line", data: { datasets: datasets(scene, state, canvas.parentElement.clientWidth < 640 ? 0.65 : 1) }, options: options(scene) });
   canvas.setAttribute("aria-label", caption.textContent + " Arrow keys step through the settings that are best for their time; all figures are in the table below.");
@@ -342,12 +364,12 @@ function drawPlot(scene, root) {
   };
   const drawKey = () => {
     const group = (...children) => el("span", { class: "group" }, ...children);
-    const line = curve => ({ d: "M0 7.5h24", fill: "none", stroke: curve.packets > 1 ? "var(--soft)" : "var(--faint)", "stroke-width": curve.packets > 1 ? 2 : 1.3, "stroke-dasharray": curve.dash.join(" ") });
+    const line = curve => ({ d: "M0 7.5h24", fill: "none", stroke: `var(--${curve.ink})`, "stroke-width": curve.width, "stroke-dasharray": curve.dash.join(" ") });
     tools.replaceChildren(
       group(chooser("hue", "colour"), ...valuesOf(scene.rows, state.hue).map((hue, i) =>
-        keyEntry(plain(hue) || "none", { d: shapePaths[0], fill: `var(--hue-${i % 5})` }, toggle(hue)))),
-      group(chooser("shape", "shape"), ...valuesOf(scene.rows, state.shape).map((form, i) =>
-        keyEntry(plain(form) || "none", { d: shapePaths[i % 5], fill: "var(--soft)", stroke: "var(--soft)" }))),
+        keyEntry(plain(hue) || "none", { d: shapePaths[0], fill: `var(--hue-${i % hueCount})` }, toggle(hue)))),
+      group(chooser("shape", "shape"), ...(state.shape === state.hue ? [] : valuesOf(scene.rows, state.shape).map((form, i) =>
+        keyEntry(plain(form) || "none", { d: shapePaths[i % shapes.length], fill: "var(--soft)", stroke: "var(--soft)" })))),
       group(keyEntry("best for its time", { d: "M0 3h12v9h12", fill: "none", stroke: "var(--accent)", "stroke-width": 2.2 }, toggle("best for its time")), el("span", {}, "Embree"), ...rayCurves(scene).map(curve => keyEntry(curve.short, line(curve), toggle(curve.label)))));
   };
   drawKey();
@@ -370,7 +392,7 @@ function drawPlot(scene, root) {
     at = Math.min(scene.front.length - 1, Math.max(0, at + step));
     light(scene.front[at]);
     const row = scene.front[at];
-    $(".read-out", figure).textContent = `${knobsOf(row, keys)}: RMSE ${error(row.rmse)}, ${digits(row.ns_per_point)} ns/point, ${speedup(row).text}`;
+    $(".read-out", figure).textContent = `${plain(row.method)}, ${ownKnobs(scene, row)}: RMSE ${error(row.rmse)}, ${digits(row.ns_per_point)} ns/point, ${speedup(row).text}`;
   });
   canvas.addEventListener("blur", () => { at = -1; light(null); $(".read-out", figure).textContent = ""; });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw(false));
@@ -379,19 +401,25 @@ function drawPlot(scene, root) {
 
 // ---------------------------------------------------------------- table
 
-function columnsOf(scene) {
+/** With one method a column for each knob, else one for all knobs. */
+function columnsOf(scene, method) {
   const number = (head, value, text) => ({ head, number: true, value, text: row => text(value(row), row) });
+  const knobs = method ? method.keys.map(key => ({
+    head: plain(key), number: method.rows.some(row => typeof row.knobs[key] === "number"), value: row => row.knobs[key] ?? "",
+    text: row => plain(valueOf(row, key)),
+  })) : [
+    { head: "method", value: row => row.method, text: row => plain(row.method) },
+    { head: "knobs", wide: true, value: row => ownKnobs(scene, row), text: row => ownKnobs(scene, row) },
+  ];
+  const overlap = number("overlap", row => row.overlap_rmse ?? NaN, x => Number.isNaN(x) ? "–" : error(x));
   return [
-    { head: "", value: () => 0, text: row => row.default ? "default" : "" },
-    ...scene.keys.map(key => ({
-      head: plain(key), number: scene.rows.some(row => typeof row.knobs[key] === "number"),
-      value: row => key === "method" ? row.method : row.knobs[key] ?? "", text: row => plain(valueOf(row, key)),
-    })),
+    { head: "", value: () => 0, text: row => row.default ? "default" : "" }, ...knobs,
     number("RMSE", row => row.rmse, error), number("ns/point", row => row.ns_per_point, digits),
     number("rays", row => rays(row).value, (x, row) => rays(row).text),
     number("speed-up", row => speedup(row).value, (x, row) => speedup(row).text),
     number("max", row => row.max_error, x => x.toFixed(3)),
     number("bias", row => row.bias, x => (x < 0 ? "−" : "+") + error(Math.abs(x))),
+    ...(scene.overlap_points ? [overlap] : []),
     number("build, ms", row => row.build_ms, digits), number("memory", row => row.bytes, bytes),
   ];
 }
@@ -402,48 +430,92 @@ function compare(a, b) {
 }
 
 function drawTable(scene, root, light) {
-  const box = $(".rows", root), columns = columnsOf(scene), front = new Set(scene.front);
-  const state = { column: columns.findIndex(column => column.head === "RMSE"), up: true, all: false };
-  const body = el("tbody", { class: "live" });
-  const heads = columns.map((column, i) => {
-    if (!column.head) return el("td");
-    const button = el("button", { type: "button" }, column.head);
-    button.addEventListener("click", () => {
-      state.up = state.column === i ? !state.up : true;
-      state.column = i;
-      draw();
-    });
-    return el("th", { scope: "col", class: column.number ? "number" : "" }, button);
-  });
+  const box = $(".rows", root), one = scene.methods.length === 1, table = $("table", box), caption = $(".caption", box);
+  const state = { method: one ? scene.methods[0] : null, sorted: "RMSE", up: true, all: false };
   const draw = () => {
-    const column = columns[state.column], sign = state.up ? 1 : -1;
-    const shown = state.all ? scene.rows : scene.rows.filter(row => front.has(row) || row.default);
-    heads.forEach((head, i) => columns[i].head && head.setAttribute("aria-sort", i !== state.column ? "none" : state.up ? "ascending" : "descending"));
-    body.replaceChildren(...[...shown].sort((a, b) => sign * compare(column.value(a), column.value(b))).map(row => {
+    const { method } = state, columns = columnsOf(scene, method), rows = method ? method.rows : scene.rows;
+    const front = new Set(paretoFront(rows)), bests = scene.methods.map(each => each.best);
+    const column = columns.find(each => each.head === state.sorted) ?? columns.find(each => each.head === "RMSE");
+    const head = el("tr", {}, ...columns.map(each => {
+      if (!each.head) return el("td");
+      const button = el("button", { type: "button" }, each.head);
+      button.addEventListener("click", () => {
+        state.up = state.sorted === each.head ? !state.up : true;
+        state.sorted = each.head;
+        draw();
+        [...table.querySelectorAll("thead button")].find(other => other.textContent === each.head).focus();
+      });
+      return el("th", { scope: "col", class: each.number ? "number" : "", "aria-sort": each !== column ? "none" : state.up ? "ascending" : "descending" }, button);
+    }));
+    const shown = state.all ? rows : rows.filter(row => front.has(row) || row.default || bests.includes(row));
+    const sign = state.up ? 1 : -1;
+    const lines = [...shown].sort((a, b) => sign * compare(column.value(a), column.value(b))).map(row => {
       const line = el("tr", { class: front.has(row) ? "front" : "" });
-      for (const c of columns) line.append(el("td", { class: c.number ? "number" : c.head ? "" : "unit" },
-        !c.head && row === scene.best ? el("span", { class: "star" }, "★ ") : null, c.text(row)));
+      for (const each of columns) line.append(el("td", { class: each.number ? "number" : each.wide ? "knobs" : each.head ? "" : "unit" },
+        !each.head && bests.includes(row) ? el("span", { class: "star" }, row === scene.best ? "★ " : "☆ ") : null, each.text(row)));
       line.addEventListener("pointerenter", () => { line.classList.add("lit"); light(row); });
       line.addEventListener("pointerleave", () => { line.classList.remove("lit"); light(null); });
       return line;
-    }));
-  };
-  const buttons = [["Best for their time", false], [`All ${whole(scene.rows.length)} settings`, true]].map(([text, all]) => {
-    const button = el("button", { type: "button", "aria-pressed": String(all === state.all) }, text);
-    button.addEventListener("click", () => {
-      state.all = all;
-      buttons.forEach(other => other.setAttribute("aria-pressed", String(other === button)));
-      draw();
     });
-    return button;
+    table.replaceChildren(el("thead", {}, head), el("tbody", { class: "live" }, ...lines));
+    const same = scene.methods.filter(each => !method || each === method).map(each =>
+      [each, knobsOf(each.rows[0], knobNames(each.rows).filter(key => !each.keys.includes(key)))]).filter(([, text]) => text);
+    caption.replaceChildren(el("b", {}, `Table ${scene.index + 2}. `), `Settings of ${method ? plain(method.name) : "all methods"}; `,
+      `the bar at the left marks those that are best for their time, ★ the smallest RMSE, ☆ that of its method. `,
+      ...same.map(([each, text]) => `The same for all of ${plain(each.name)}: ${text}. `));
+    buttons.forEach(([button, all]) => button.setAttribute("aria-pressed", String(all === state.all)));
+    buttons[1][0].textContent = `All ${whole(rows.length)} settings`;
+  };
+  const buttons = ["Best for their time", "All settings"].map((text, i) => {
+    const button = el("button", { type: "button" }, text), all = i === 1;
+    button.addEventListener("click", () => { state.all = all; draw(); });
+    return [button, all];
   });
-  $(".rows-tools", box).append(...buttons);
-  $("table", box).append(el("thead", {}, el("tr", {}, ...heads)), body);
+  $(".rows-tools", box).append(...buttons.map(([button]) => button));
+  if (!one) {
+    const select = el("select", { "aria-label": "Method" }, el("option", { value: "" }, "all methods"),
+      ...scene.methods.map(method => el("option", { value: method.name }, plain(method.name))));
+    select.addEventListener("change", () => { state.method = scene.methods.find(method => method.name === select.value) ?? null; draw(); });
+    $(".rows-tools", box).append(el("label", {}, " of ", select));
+  }
   $(".scroll", box).setAttribute("aria-label", `Settings measured on ${scene.name}`);
-  const same = knobNames(scene.rows).filter(key => !scene.keys.includes(key));
-  $(".caption", box).append(el("b", {}, `Table ${scene.index + 2}. `), `Settings of ${valuesOf(scene.rows, "method").map(plain).join(", ")}; the bar at the left marks those that are best for their time, ★ the smallest RMSE. `,
-    same.length ? "The same for all: " + knobsOf(scene.rows[0], same) + "." : "");
   draw();
+}
+
+// ---------------------------------------------------------------- wedges
+
+/** Plain wedges, blended wedges and truth. */
+function drawTriplet(scene, root) {
+  const figure = $(".triplet", root), { triplet } = scene;
+  if (!triplet) return figure.remove();
+  const caption = `Plain wedges, wedges blended as by Forest, Barthe & Paulin, and the truth. At the ${whole(scene.overlap_points)} of ` +
+    `${whole(scene.points)} points from which silhouettes overlap, RMSE is ${error(triplet.plain_rmse)} and ${error(triplet.blended_rmse)}` +
+    `${triplet.blended_rmse > 0 ? `, ${digits(triplet.plain_rmse / triplet.blended_rmse)}× lower` : ""}.`;
+  $("a", figure).href = $("img", figure).src = triplet.picture;
+  $("img", figure).alt = caption;
+  $("figcaption", figure).append(el("b", {}, `Figure ${scene.index + 1}d. `), caption);
+}
+
+function drawCosts() {
+  const root = $("#cost");
+  if (!costFigures.length) return root.remove();
+  const about = {
+    spheres: "Cost against the number of spheres, as in Figure 12 of Forest, Barthe & Paulin 2006: spheres of 762 triangles under a low light, so that silhouettes overlap.",
+    triangles: "Cost against the number of triangles of a prism with 48 corners: all go into its caps, flat or domed, and its silhouette stays as it is.",
+  };
+  for (const name of costFigures) {
+    const rows = data.costs.filter(cost => cost.figure === name), sizes = distinct(rows.map(cost => cost.x));
+    const cell = (series, x) => {
+      const cost = rows.find(row => row.series === series && row.x === x);
+      return el("td", { class: "number" }, cost ? (cost.at_least ? "> " : "") + digits(cost.ns_per_point) : "–");
+    };
+    const { plot } = costPlot(name);
+    root.append(el("figure", { class: "plot" }, el("img", { src: plot, alt: about[name] }), el("figcaption", {}, about[name])),
+      el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "ns/point of each number of " + name }, el("table", {},
+        el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "ns/point"), ...sizes.map(x => el("th", { scope: "col", class: "number" }, `${whole(x)} ${name}`)))),
+        el("tbody", {}, ...distinct(rows.map(row => row.series)).map(series =>
+          el("tr", {}, el("th", { scope: "row" }, series), ...sizes.map(x => cell(series, x))))))));
+  }
 }
 
 // ---------------------------------------------------------------- page
@@ -460,21 +532,23 @@ function drawScene(scene) {
     `noise of the truth ${scene.truth_noise.toPrecision(2)}`].filter(Boolean).join(" · ");
   $("#scenes").append(root);
   drawPictures(scene, root);
+  drawTriplet(scene, root);
   if (!scene.rows.length) return;
   drawTable(scene, root, drawPlot(scene, root));
 }
 
 /** The link of the scene in view is marked. */
 function followScroll() {
-  const links = new Map(scenes.map((scene, i) => [scene.id, $("#nav").querySelectorAll("a")[i]]));
+  const links = new Map([...$("#nav").querySelectorAll("a")].map(link => [link.hash.slice(1), link]));
   const observer = new IntersectionObserver(entries => {
     for (const entry of entries) entry.isIntersecting ? links.get(entry.target.id).setAttribute("aria-current", "true") : links.get(entry.target.id).removeAttribute("aria-current");
   }, { rootMargin: "-30% 0px -69% 0px" });
-  document.querySelectorAll(".scene").forEach(section => observer.observe(section));
+  document.querySelectorAll(".scene, #cost").forEach(section => observer.observe(section));
 }
 
 drawHead();
 drawSummary();
+drawCosts();
 scenes.forEach(drawScene);
 followScroll();
 })();

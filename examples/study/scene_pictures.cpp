@@ -1,0 +1,84 @@
+#include "scene_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "picture.hpp"
+
+namespace penumbra::study {
+namespace {
+
+/// The picture of `visibility` at the view's points; −1 elsewhere.
+Image<float> image_of(const View& view, const std::vector<float>& visibility) {
+    Image<float> image(view.width, view.height, -1.0F);
+    for (std::size_t i = 0; i < view.points.size(); ++i) image.data()[view.pixel[i]] = visibility[i];
+    return image;
+}
+
+Image<Rgb> shade(const View& view, const std::vector<float>& visibility) {
+    Image<float> cosine(view.width, view.height, -1.0F);
+    Image<Vec3<float>> base(view.width, view.height, Vec3<float>(0.62F, 0.70F, 0.78F));  // the background
+    for (std::size_t i = 0; i < view.hit.size(); ++i) {
+        if (!view.hit[i]) continue;
+        cosine.data()[i] = 0.0F;
+        base.data()[i] = Vec3<float>(0.80F, 0.62F, 0.42F);  // casters, also where they look away
+    }
+    for (std::size_t i = 0; i < view.points.size(); ++i) {
+        cosine.data()[view.pixel[i]] = view.cosine[i];
+        if (!view.on_caster[i]) base.data()[view.pixel[i]] = Vec3<float>(0.78F, 0.78F, 0.76F);
+    }
+    return shaded_picture(image_of(view, visibility), cosine, base, 0.12F);
+}
+
+}  // namespace
+
+ScenePictures::ScenePictures(const Scene& scene, const View& view, std::vector<float> truth,
+                             std::filesystem::path folder)
+    : scene_(scene), view_(view), truth_(std::move(truth)), folder_(std::move(folder)), file_(file_name(scene.name)) {
+    write_png(folder_ / (file_ + "-truth.png"), shade(view_, truth_));
+}
+
+Picture ScenePictures::draw(const Row& row, const Built& built, const std::string& special) const {
+    const std::vector<float> visibility = ask(built, view_.points);
+    const std::string file = fmt::format("{}-{}{}", file_, row.method, row.is_default ? "" : "-best");
+    Picture picture;
+    picture.scene = scene_.name;
+    picture.label = fmt::format("{}, {}", plain_name(row.method), special);
+    picture.title = fmt::format("{}: {}", row.method, knobs_text(row));
+    picture.method_png = file + ".png";
+    picture.truth_png = file_ + "-truth.png";
+    picture.difference_png = file + "-difference.png";
+    picture.rmse = row.rmse;
+    const Image<Rgb> shaded = shade(view_, visibility);
+    write_png(folder_ / picture.method_png, shaded);
+    const Image<Rgb> difference = difference_picture(image_of(view_, visibility), image_of(view_, truth_));
+    write_png(folder_ / picture.difference_png, difference);
+    write_png(folder_ / (file + "-panel.png"),
+              side_by_side({{scene_.name + "\nray-traced truth", shade(view_, truth_)},
+                            {fmt::format("{}\nRMSE {:.4f}", picture.label, picture.rmse), shaded},
+                            {"difference\nmethod − truth, of visibility", difference}}));
+    return picture;
+}
+
+Triplet ScenePictures::triplet(const Row& plain, const Built& plain_built, const Row& blended,
+                               const Built& blended_built) const {
+    const auto title = [](const char* name, const Row& row) {
+        return fmt::format("{}\nRMSE {:.3f} where silhouettes overlap", name, row.overlap_rmse);
+    };
+    const Triplet triplet{scene_.name, file_ + "-triplet.png", plain.overlap_rmse, blended.overlap_rmse};
+    write_png(folder_ / triplet.png,
+              side_by_side({{title("plain wedges", plain), shade(view_, ask(plain_built, view_.points))},
+                            {title("blended wedges", blended), shade(view_, ask(blended_built, view_.points))},
+                            {scene_.name + "\nray-traced truth", shade(view_, truth_)}}));
+    return triplet;
+}
+
+double ScenePictures::seconds(const Row& row) const {
+    return row.ns_per_point * 1e-9 * static_cast<double>(view_.points.size()) /
+           std::max(1U, std::thread::hardware_concurrency());
+}
+
+}  // namespace penumbra::study

@@ -1,0 +1,38 @@
+// Pictures of a scene: its truth, settings beside it, and wedges plain and blended beside it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "result.hpp"
+#include "settings.hpp"
+#include "view.hpp"
+
+namespace penumbra::study {
+
+/// Writes pictures of one scene into a folder.
+class ScenePictures {
+  public:
+    /// `truth` is visibility at the view's points. Writes its picture.
+    ScenePictures(const Scene& scene, const View& view, std::vector<float> truth, std::filesystem::path folder);
+
+    /// A setting's picture, its difference, and a panel of both with the truth. `special` says what is special about
+    /// the setting.
+    Picture draw(const Row& row, const Built& built, const std::string& special) const;
+
+    /// Figures 1 and 2 of the paper; rows and settings of plain and of blended wedges.
+    Triplet triplet(const Row& plain, const Built& plain_built, const Row& blended, const Built& blended_built) const;
+
+    /// Seconds that a picture of the setting would take, on all cores.
+    double seconds(const Row& row) const;
+
+  private:
+    const Scene& scene_;
+    const View& view_;
+    std::vector<float> truth_;
+    std::filesystem::path folder_;
+    std::string file_;  // what names of files begin with
+};
+
+}  // namespace penumbra::study
