@@ -9,6 +9,7 @@
 #include "../../shaders/penumbra/penumbra_wedge/overlap.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/packing.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/wedge.glsl"
 #pragma GCC diagnostic pop
 
 /// What was compiled.
@@ -43,6 +44,7 @@ struct Query {
 #undef PENUMBRA_PENUMBRA_WEDGE_PACKING_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_RADIAL_PART_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL
