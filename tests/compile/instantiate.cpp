@@ -67,7 +67,8 @@
     template bool contains(const HalfWedge<T>&, const Vec3<T>&);                                                   \
     template Vec3<T> wedge_vertex(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&, const Box3<T>&, int);            \
     template int face_winding(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T, Surface);                         \
-    template std::vector<SilhouetteEdge> silhouette(const Mesh<T>&, const EdgeAdjacency&, const Vec3<T>&, Viewer);
+    template std::vector<SilhouetteEdge> silhouette(const Mesh<T>&, const EdgeAdjacency&, const Vec3<T>&,          \
+                                                    SilhouetteFrom);
 
 namespace penumbra {
 

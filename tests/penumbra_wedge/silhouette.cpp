@@ -21,8 +21,9 @@ using namespace penumbra;
 namespace {
 
 template <class T>
-std::vector<SilhouetteEdge> seen(const Mesh<T>& mesh, const Vec3<T>& viewpoint, Viewer viewer = Viewer::point) {
-    return silhouette(mesh, edge_adjacency(mesh), viewpoint, viewer);
+std::vector<SilhouetteEdge> seen(const Mesh<T>& mesh, const Vec3<T>& viewpoint,
+                                 SilhouetteFrom from = SilhouetteFrom::point) {
+    return silhouette(mesh, edge_adjacency(mesh), viewpoint, from);
 }
 
 /// As many edges end at each vertex as begin there; each edge is there once, and of the mesh.
@@ -153,9 +154,9 @@ TEST_CASE_TEMPLATE("as many silhouette edges end at a vertex as begin there, wha
     for (const Mesh<T>& mesh : meshes) {
         const EdgeAdjacency adjacency = edge_adjacency(mesh);
         for (const Vec3<T>& viewpoint : viewpoints(mesh, random))
-            for (const Viewer viewer : {Viewer::point, Viewer::light})
+            for (const SilhouetteFrom from : {SilhouetteFrom::point, SilhouetteFrom::light_center})
                 for (const T tolerance : {T(0), T(1e-3), T(0.3), T(1e9)}) {
-                    const auto result = silhouette(mesh, adjacency, viewpoint, tolerance, viewer);
+                    const auto result = silhouette(mesh, adjacency, viewpoint, tolerance, from);
                     CHECK(is_balanced(mesh, result));
                     CHECK((tolerance < T(1e9) || result.empty()));
                     for (const SilhouetteEdge& e : result) ++edges, multiple += e.count > 1;
@@ -229,12 +230,12 @@ TEST_CASE_TEMPLATE("seen from the light, loops run so that points behind the mes
         const T slope = random.in(T(-0.2), T(0.2));
         for (Vec3<T>& p : flat.positions) p.z += slope * p.x;
         const Vec3<T> point = any_point<T>(random);
-        const auto from_light = seen(flat, center, Viewer::light), from_point = seen(flat, point);
+        const auto from_light = seen(flat, center, SilhouetteFrom::light_center), from_point = seen(flat, point);
         CAPTURE(round);
         CHECK(loops(from_light) == 1);
         CHECK(std::abs(coverage(flat, from_light, point, box<T>) - coverage(flat, from_point, point, box<T>)) < 2e-3);
         // the same faces for both: only the orientation differs
-        auto reversed = seen(flat, center, Viewer::point);
+        auto reversed = seen(flat, center, SilhouetteFrom::point);
         REQUIRE(reversed.size() == from_light.size());
         for (std::size_t i = 0; i < reversed.size(); ++i) {
             CHECK(reversed[i].from == from_light[i].to);

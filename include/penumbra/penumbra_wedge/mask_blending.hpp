@@ -99,10 +99,10 @@ class IntervalBlender {
             const T left = px + std::min((b.min.x - px) * near, (b.min.x - px) * far);
             const T right = px + std::max((b.max.x - px) * near, (b.max.x - px) * far);
             const T bottom = py + std::min((b.min.y - py) * near, (b.min.y - py) * far);
-            r.left[i] = beyond | (left < light.min.x) ? light.min.x : r.left[i];
-            r.right[i] = beyond | (right > light.max.x) ? light.max.x : r.right[i];
-            r.bottom[i] = beyond | (bottom < light.min.y) ? light.min.y : r.bottom[i];
-            r.top[i] = beyond | (r.top[i] > light.max.y) ? light.max.y : r.top[i];
+            r.left[i] = (beyond | (left < light.min.x)) ? light.min.x : r.left[i];
+            r.right[i] = (beyond | (right > light.max.x)) ? light.max.x : r.right[i];
+            r.bottom[i] = (beyond | (bottom < light.min.y)) ? light.min.y : r.bottom[i];
+            r.top[i] = (beyond | (r.top[i] > light.max.y)) ? light.max.y : r.top[i];
         }
     }
 

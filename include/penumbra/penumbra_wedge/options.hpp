@@ -2,6 +2,7 @@
 #pragma once
 
 #include <penumbra/detail/error.hpp>
+#include <penumbra/penumbra_wedge/silhouette.hpp>
 #include <string>
 
 namespace penumbra {
@@ -16,12 +17,6 @@ enum class OverlapRule {
     rectangles_centroid,  ///< the same with centres of gravity: the paper's future work
     rectangle_product,    ///< rectangles as random, in any order of silhouettes
     bitmask               ///< where silhouettes lie, cell by cell, beside their exact areas
-};
-
-/// From where silhouettes are seen.
-enum class SilhouetteFrom {
-    light_center,  ///< once, at build time: the paper
-    point          ///< from each shaded point: exact
 };
 
 struct PenumbraWedgeOptions {

@@ -35,10 +35,10 @@ inline Surface surface_of(const EdgeAdjacency& adjacency) {
     return is_closed(adjacency) ? Surface::solid : Surface::sheet;
 }
 
-/// Where the silhouette is taken from.
-enum class Viewer {
-    point,  ///< a point of the scene: exact for that point
-    light,  ///< the light, by its centre: the paper's, one silhouette for all points
+/// From where silhouettes are seen.
+enum class SilhouetteFrom {
+    light_center,  ///< the light, by its centre: the paper's, one silhouette for all points
+    point          ///< a point of the scene: exact for that point
 };
 
 /// The unit normal of a triangle, on the side from which it is counter-clockwise; 0 if it has no area. Any space.
@@ -73,10 +73,10 @@ int face_winding(const Vec3<T>& unit_normal, const Vec3<T>& vertex, const Vec3<T
 }
 
 /// How often an edge belongs to the silhouette, negative for its reverse: the winding of the faces that run along it
-/// less that of the faces that run against it; where several do, the sum of theirs. For Viewer::light the other way
-/// round, since points that the light shines on see it from the other side.
-inline int edge_winding(int along, int against, Viewer viewer) {
-    return viewer == Viewer::point ? along - against : against - along;
+/// less that of the faces that run against it; where several do, the sum of theirs. For SilhouetteFrom::light_center
+/// the other way round, since points that the light shines on see it from the other side.
+inline int edge_winding(int along, int against, SilhouetteFrom from) {
+    return from == SilhouetteFrom::point ? along - against : against - along;
 }
 
 /// An edge of a silhouette, by vertices of the mesh; `count` ≥ 1 tells how often the silhouette runs along it.
@@ -94,7 +94,7 @@ struct SilhouetteEdge {
 /// Source: V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006.
 template <class T>
 std::vector<SilhouetteEdge> silhouette(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const Vec3<T>& viewpoint,
-                                       T tolerance, Viewer viewer = Viewer::point) {
+                                       T tolerance, SilhouetteFrom from = SilhouetteFrom::point) {
     const Surface surface = surface_of(adjacency);
     std::vector<int> windings;
     windings.reserve(mesh.triangles.size());
@@ -109,7 +109,7 @@ std::vector<SilhouetteEdge> silhouette(const Mesh<T>& mesh, const EdgeAdjacency&
             const EdgeFace& side = adjacency.faces[edge.first + i];
             (side.forward ? along : against) += windings[side.face];
         }
-        const int winding = edge_winding(along, against, viewer);
+        const int winding = edge_winding(along, against, from);
         if (winding > 0) result.push_back({edge.a, edge.b, winding});
         if (winding < 0) result.push_back({edge.b, edge.a, -winding});
     }
@@ -118,8 +118,8 @@ std::vector<SilhouetteEdge> silhouette(const Mesh<T>& mesh, const EdgeAdjacency&
 /// With the tolerance of the mesh's bounds.
 template <class T>
 std::vector<SilhouetteEdge> silhouette(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const Vec3<T>& viewpoint,
-                                       Viewer viewer = Viewer::point) {
-    return silhouette(mesh, adjacency, viewpoint, silhouette_tolerance(bounds(mesh)), viewer);
+                                       SilhouetteFrom from = SilhouetteFrom::point) {
+    return silhouette(mesh, adjacency, viewpoint, silhouette_tolerance(bounds(mesh)), from);
 }
 
 }  // namespace penumbra

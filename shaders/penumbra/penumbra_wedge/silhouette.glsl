@@ -16,8 +16,8 @@
 #define PENUMBRA_SURFACE_SHEET 1
 
 // Where the silhouette is taken from: a point of the scene, or the centre of the light.
-#define PENUMBRA_VIEWER_POINT 0
-#define PENUMBRA_VIEWER_LIGHT 1
+#define PENUMBRA_SILHOUETTE_LIGHT_CENTER 0
+#define PENUMBRA_SILHOUETTE_POINT 1
 
 // The unit normal of a triangle, on the side from which it is counter-clockwise; 0 if it has no area. Any space.
 // Domain: |coordinates| <= 1e18.
@@ -45,9 +45,9 @@ int penumbra_face_winding(vec3 unit_normal, vec3 vertex, vec3 viewpoint, float t
 }
 
 // How often an edge belongs to the silhouette, negative for its reverse: the winding of the faces that run along it less
-// that of the faces that run against it. For PENUMBRA_VIEWER_LIGHT the other way round.
-int penumbra_edge_winding(int along, int against, int viewer) {
-    return viewer == PENUMBRA_VIEWER_POINT ? along - against : against - along;
+// that of the faces that run against it. For PENUMBRA_SILHOUETTE_LIGHT_CENTER the other way round.
+int penumbra_edge_winding(int along, int against, int from) {
+    return from == PENUMBRA_SILHOUETTE_POINT ? along - against : against - along;
 }
 
 #endif

@@ -93,12 +93,12 @@ inline void add_penumbra_wedge_wedge(std::vector<Function>& list) {
     });
     list.push_back({
         "edge_winding", "penumbra_wedge/silhouette", 2, 2,
-            GLSL(O(0) = float(penumbra_edge_winding(int(I(0)), int(I(1)), PENUMBRA_VIEWER_POINT));
-                 O(1) = float(penumbra_edge_winding(int(I(0)), int(I(1)), PENUMBRA_VIEWER_LIGHT));),
+            GLSL(O(0) = float(penumbra_edge_winding(int(I(0)), int(I(1)), PENUMBRA_SILHOUETTE_POINT));
+                 O(1) = float(penumbra_edge_winding(int(I(0)), int(I(1)), PENUMBRA_SILHOUETTE_LIGHT_CENTER));),
             [](const float* i, float* o) {
                 const int along = static_cast<int>(i[0]), against = static_cast<int>(i[1]);
-                o[0] = static_cast<float>(edge_winding(along, against, Viewer::point));
-                o[1] = static_cast<float>(edge_winding(along, against, Viewer::light));
+                o[0] = static_cast<float>(edge_winding(along, against, SilhouetteFrom::point));
+                o[1] = static_cast<float>(edge_winding(along, against, SilhouetteFrom::light_center));
             },
             small_whole<2>, 0, nullptr
     });
