@@ -37,6 +37,16 @@ void casters_and_box(float* in) {
 
 inline void add_penumbra_wedge_coverage(std::vector<Function>& list) {
     list.push_back({
+        "column_edge: columns and order", "penumbra_wedge/coverage", 8, 3,
+            GLSL(penumbra_ColumnEdge e = penumbra_column_edge(V2(0), V2(2), RECT(4)); O(0) = e.x0; O(1) = e.x1;
+                 O(2) = e.sign;),
+            [](const float* i, float* o) {
+                const detail::ColumnEdge<float> e = detail::column_edge(i[0], i[1], i[2], i[3], rect(i + 4));
+                o[0] = e.x0, o[1] = e.x1, o[2] = e.sign;
+            },
+            edge_and_box, 0, nullptr
+    });
+    list.push_back({
         "edge_coverage", "penumbra_wedge/coverage", 8, 1, GLSL(O(0) = penumbra_edge_coverage(V2(0), V2(2), RECT(4));),
             [](const float* i, float* o) { o[0] = edge_coverage(v2(i), v2(i + 2), rect(i + 4)); }, edge_and_box, 8,
             box_area
