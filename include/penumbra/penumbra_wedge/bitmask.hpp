@@ -61,12 +61,11 @@ struct ColumnLine {
 };
 
 template <class T>
-ColumnLine<T> column_line(T ax, T ay, T bx, T by, const Rect2<T>& box) {
-    const ColumnEdge<T> e = column_edge(ax, ay, bx, by, box);
+ColumnLine<T> column_line(const ColumnEdge<T>& e) {
     const bool ascends = e.x0 < e.x1;
     const T lx = ascends ? e.x0 : e.x1, ly = ascends ? e.y0 : e.y1;
     const T rx = ascends ? e.x1 : e.x0, ry = ascends ? e.y1 : e.y0;
-    return {lx, rx, ly, (ry - ly) / (rx > lx ? rx - lx : T(1)), ax < bx};
+    return {lx, rx, ly, (ry - ly) / divisor(rx - lx), ascends == (e.sign > T(0))};
 }
 
 /// The first of `size` columns whose middle is at x or to the right of it; `size` if none is.
@@ -97,7 +96,7 @@ struct WindingMask {
     /// fall on either side of it, but on the same for both ways round. Exact modulo 16.
     template <class T>
     void add(const Vec2<T>& a, const Vec2<T>& b, int weight, const Rect2<T>& box) {
-        const detail::ColumnLine<T> line = detail::column_line(a.x, a.y, b.x, b.y, box);
+        const detail::ColumnLine<T> line = detail::column_line(detail::column_edge(a.x, a.y, b.x, b.y, box));
         const int end = detail::first_column(line.right_x, box, Size);
         for (int column = detail::first_column(line.left_x, box, Size); column < end; ++column) {
             const std::uint32_t cells = detail::cells_below(line, column, box, Size);

@@ -5,6 +5,9 @@
 // to the right. No edge needs to know of any other, so that edges may come in any order, from any stage, and there is
 // no question of "is the centre inside?" whose answer could contradict the sum. What is summed is the winding number:
 // a part of the box that a loop encloses twice counts twice.
+//
+// Source: V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006, whose coverage
+// this replaces: theirs asks for the centre.
 #pragma once
 
 #include <cmath>
@@ -50,16 +53,21 @@ inline ColumnEdge<T> column_edge(T ax, T ay, T bx, T by, const Rect2<T>& box) {
     return {x0, ny + (x0 - nx) / run * rise, x1, ny + (x1 - nx) / run * rise, forward ? T(1) : T(-1)};
 }
 
-/// edge_coverage without vectors: loops over arrays of edges vectorise.
+/// What lies of the box below the edge, signed.
 template <class T>
-inline T edge_coverage(T ax, T ay, T bx, T by, const Rect2<T>& box) {
-    const ColumnEdge<T> e = column_edge(ax, ay, bx, by, box);
+inline T covered_below(const ColumnEdge<T>& e, const Rect2<T>& box) {
     const T c0 = limit(e.y0, box.min.y, box.max.y), c1 = limit(e.y1, box.min.y, box.max.y);
     // twice the mean of the limited y: its ends' sum, and how much longer it stays at one limit than at the other
     const T rise = e.y1 - e.y0, most = std::abs(rise);
     const T lean = limit((c0 - e.y0) + (c1 - e.y1), -most, most) / divisor(rise);
     const T twice_mean = ((c0 - box.min.y) + (c1 - box.min.y)) + lean * (c0 - c1);
     return e.sign * (T(0.5) * (e.x0 - e.x1) * twice_mean);
+}
+
+/// edge_coverage without vectors: loops over arrays of edges vectorise.
+template <class T>
+inline T edge_coverage(T ax, T ay, T bx, T by, const Rect2<T>& box) {
+    return covered_below(column_edge(ax, ay, bx, by, box), box);
 }
 
 }  // namespace detail

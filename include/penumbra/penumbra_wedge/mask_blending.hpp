@@ -124,16 +124,39 @@ class MaskBlender {
 
     void begin_mesh() {}
     void begin_piece(const Box3<T>&, bool) { sums_.clear(), first_ = size_, last_ = -1; }
+    /// Areas and lines by vectors; crossings, few in each lane but at other columns in each, lane by lane.
     void edges(const TileEdge<T>& e) {
-        sums_.edges(e);
-        add(e);
+        const PointTile<T>& tile = sums_.tile;
+        const Rect2<T> light = tile.light;
+        typename PointTile<T>::Values x0, y0, x1, y1, sign, left, right, y, slope;
+        std::array<int, PointTile<T>::capacity> first, end;
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            const ColumnEdge<T> edge = column_edge(e.ax[i], e.ay[i], e.bx[i], e.by[i], light);
+            x0[i] = edge.x0, y0[i] = edge.y0, x1[i] = edge.x1, y1[i] = edge.y1, sign[i] = edge.sign;
+        }
+        for (std::size_t i = 0; i < tile.lanes; ++i)
+            sums_.areas[0][i] +=
+                e.coefficient[i] * covered_below(ColumnEdge<T>{x0[i], y0[i], x1[i], y1[i], sign[i]}, light);
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            const ColumnLine<T> line = column_line(ColumnEdge<T>{x0[i], y0[i], x1[i], y1[i], sign[i]});
+            left[i] = line.left_x, right[i] = line.right_x, y[i] = line.left_y, slope[i] = line.slope;
+        }
+        for (std::size_t i = 0; i < tile.lanes; ++i) {
+            first[i] = first_column(left[i], light, size_);
+            end[i] = first_column(right[i], light, size_);
+        }
+        for (std::size_t i = 0; i < tile.count; ++i) {
+            const bool rightward = (x0[i] < x1[i]) == (sign[i] > T(0));
+            const auto weight = static_cast<int>(rightward ? -e.coefficient[i] : e.coefficient[i]);
+            cross(i, first[i], end[i], {left[i], right[i], y[i], slope[i], rightward}, weight);
+        }
     }
     void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T coefficient) {
         sums_.edge(lane, from, to, coefficient);
-        const ColumnLine<T> line = column_line(from.x, from.y, to.x, to.y, sums_.tile.light);
+        const ColumnLine<T> line = column_line(column_edge(from.x, from.y, to.x, to.y, sums_.tile.light));
         const Rect2<T>& light = sums_.tile.light;
         cross(lane, first_column(line.left_x, light, size_), first_column(line.right_x, light, size_), line,
-              static_cast<int>(coefficient));
+              static_cast<int>(line.rightward ? -coefficient : coefficient));
     }
     void end_piece() {
         const std::size_t lanes = sums_.tile.lanes;
@@ -173,37 +196,17 @@ class MaskBlender {
             std::fill_n(words->begin(), sums_.tile.lanes, 0U);
     }
 
-    /// Adds an edge that crosses the middles of columns `first` to `end` − 1 to the winding numbers of one lane.
+    /// Raises the winding numbers of one lane by `weight` below a line, in columns `first` to `end` − 1.
     void cross(std::size_t lane, int first, int end, const ColumnLine<T>& line, int weight) {
         if (first >= end || weight == 0) return;
         first_ = std::min(first_, first), last_ = std::max(last_, end - 1);
-        const bool less = line.rightward == (weight > 0);
         for (int j = first; j < end; ++j) {
             const std::uint32_t below = cells_below(line, j, sums_.tile.light, size_);
             Column& column = columns_[static_cast<std::size_t>(j)];
             WindingColumn winding{column.ones[lane], column.twos[lane], column.fours[lane], column.eights[lane]};
-            for (int k = std::abs(weight); k > 0; --k) winding = add_winding(winding, below, less);
+            for (int k = std::abs(weight); k > 0; --k) winding = add_winding(winding, below, weight < 0);
             column.ones[lane] = winding.ones, column.twos[lane] = winding.twos;
             column.fours[lane] = winding.fours, column.eights[lane] = winding.eights;
-        }
-    }
-    /// Lines by vectors; crossings, few in each lane but at other columns in each, lane by lane.
-    void add(const TileEdge<T>& e) {
-        const PointTile<T>& tile = sums_.tile;
-        const Rect2<T> light = tile.light;
-        typename PointTile<T>::Values left, right, y, slope;
-        std::array<int, PointTile<T>::capacity> first, end;
-        for (std::size_t i = 0; i < tile.lanes; ++i) {
-            const ColumnLine<T> line = column_line(e.ax[i], e.ay[i], e.bx[i], e.by[i], light);
-            left[i] = line.left_x, right[i] = line.right_x, y[i] = line.left_y, slope[i] = line.slope;
-        }
-        for (std::size_t i = 0; i < tile.lanes; ++i) {
-            first[i] = first_column(left[i], light, size_);
-            end[i] = first_column(right[i], light, size_);
-        }
-        for (std::size_t i = 0; i < tile.count; ++i) {
-            const ColumnLine<T> line{left[i], right[i], y[i], slope[i], e.ax[i] < e.bx[i]};
-            cross(i, first[i], end[i], line, static_cast<int>(e.coefficient[i]));
         }
     }
 
