@@ -5,13 +5,17 @@
 // Nothing is divided before all cuts are made. A vertex is its distances from the five planes that cut: the light's,
 // and four through P and a side of the box each. For the left side that is w (x − box.min.x), x being where E lands:
 //     left = p (E.x − P.x) + (P.x − box.min.x) w,     right = p (P.x − E.x) + (box.max.x − P.x) w,
-// linear in E, and what lands lies at left / (left + right) of the box's width. Cuts by these planes leave w ≥ 0
-// without any near plane to choose, and put vertices on the box's border to the last bit. Depth 0 is cut first; else
-// parts of the caster behind the light would land on it.
+// linear in E; what lands lies at left / (left + right) of the box's width. Cuts by these planes leave w ≥ 0 without
+// any near plane to choose, and put vertices on the box's border to the last bit. Depth 0 is cut first; else parts of
+// the caster behind the light would land on it.
+//
+// Source: J. Blinn & M. Newell, "Clipping using homogeneous coordinates", 1978; I. Sutherland & G. Hodgman, "Reentrant
+// polygon clipping", 1974.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <penumbra/geometry.hpp>
 #include <penumbra/penumbra_wedge/coverage.hpp>
 

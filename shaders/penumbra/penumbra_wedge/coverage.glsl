@@ -5,7 +5,8 @@
 //
 // Options: none
 // Error:   1.5 epsilon of the box's area an edge with an end within 3 half-sizes of the box's middle; 5e-7 a loop
-// Source:  V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006; derived anew
+// Source:  V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006, whose
+//          coverage this replaces: theirs asks for the centre
 // C++:     include/penumbra/penumbra_wedge/coverage.hpp
 #ifndef PENUMBRA_PENUMBRA_WEDGE_COVERAGE_GLSL
 #define PENUMBRA_PENUMBRA_WEDGE_COVERAGE_GLSL
