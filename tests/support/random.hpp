@@ -18,7 +18,8 @@ class Random {
     }
     /// Uniform in {low, …, high}.
     int whole(int low, int high) {
-        return low + static_cast<int>(engine_() % static_cast<std::uint32_t>(high - low + 1));
+        const std::uint32_t count = static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low) + 1U;
+        return low + static_cast<int>(engine_() % count);
     }
     template <class T>
     Vec3<T> point(T low, T high) {
