@@ -22,7 +22,7 @@ template <class T>
 T overlap_area(const RadialPart<T>& a, const RadialPart<T>& b) {
     const T least = a.area < b.area ? a.area : b.area;
     const T density = saturated_ratio(a.area, area(a.rect)) * saturated_ratio(b.area, area(b.rect));
-    return clamp(area(intersect(a.rect, b.rect)) * density, T(0), least > T(0) ? least : T(0));
+    return clamp(area(intersect(a.rect, b.rect)) * density, T(0), least);
 }
 
 namespace detail {
@@ -59,7 +59,7 @@ template <class T>
 CommonDensity<T> common_density(const LinearDensity<T>& a, const LinearDensity<T>& b) {
     const T mean = a.middle * b.middle + a.rise * b.rise / T(3);
     const T first = (a.middle * b.rise + b.middle * a.rise) / T(3);
-    return {mean > T(0) ? mean : T(0), clamp(safe_ratio(first, mean, T(0)), T(-1), T(1))};
+    return {mean, clamp(safe_ratio(first, mean, T(0)), T(-1), T(1))};
 }
 
 /// What two parts block both: its area and its centre of gravity.
@@ -82,7 +82,7 @@ CommonArea<T> common_area_centroid(const RadialPart<T>& a, const RadialPart<T>& 
                                               density_within(b.rect.min.y, b.rect.max.y, lean_by, r.min.y, r.max.y));
     const T least = a.area < b.area ? a.area : b.area;
     const T even = area(r) * (saturated_ratio(a.area, area(a.rect)) * saturated_ratio(b.area, area(b.rect)));
-    return {clamp(even * (x.mean * y.mean), T(0), least > T(0) ? least : T(0)),
+    return {clamp(even * (x.mean * y.mean), T(0), least),
             (r.min + r.max) * T(0.5) + (r.max - r.min) * (Vec2<T>(x.centre, y.centre) * T(0.5))};
 }
 

@@ -27,8 +27,7 @@ float penumbra_overlap_area(penumbra_RadialPart a, penumbra_RadialPart b) {
     float least = a.area < b.area ? a.area : b.area;
     float density = penumbra_saturated_ratio(a.area, penumbra_area(a.rect)) *
                     penumbra_saturated_ratio(b.area, penumbra_area(b.rect));
-    return penumbra_clamp(penumbra_area(penumbra_intersect(a.rect, b.rect)) * density, 0.0f,
-                          least > 0.0f ? least : 0.0f);
+    return penumbra_clamp(penumbra_area(penumbra_intersect(a.rect, b.rect)) * density, 0.0f, least);
 }
 
 // How much denser a part is towards the ends of [low, high] than evenly, along one axis: the density goes from 1 - lean
@@ -50,7 +49,7 @@ vec2 penumbra_density_within(float low, float high, float lean, float from, floa
 vec2 penumbra_common_density(vec2 a, vec2 b) {
     float mean = a.x * b.x + a.y * b.y / 3.0f;
     float first = (a.x * b.y + b.x * a.y) / 3.0f;
-    return vec2(mean > 0.0f ? mean : 0.0f, penumbra_clamp(penumbra_safe_ratio(first, mean, 0.0f), -1.0f, 1.0f));
+    return vec2(mean, penumbra_clamp(penumbra_safe_ratio(first, mean, 0.0f), -1.0f, 1.0f));
 }
 
 // What two parts block both: its area and its centre of gravity.
@@ -75,7 +74,7 @@ penumbra_CommonArea penumbra_common_area_centroid(penumbra_RadialPart a, penumbr
     float even = penumbra_area(r) * (penumbra_saturated_ratio(a.area, penumbra_area(a.rect)) *
                                      penumbra_saturated_ratio(b.area, penumbra_area(b.rect)));
     penumbra_CommonArea meet;
-    meet.area = penumbra_clamp(even * (x.x * y.x), 0.0f, least > 0.0f ? least : 0.0f);
+    meet.area = penumbra_clamp(even * (x.x * y.x), 0.0f, least);
     meet.centre = (r.min + r.max) * 0.5f + (r.max - r.min) * (vec2(x.y, y.y) * 0.5f);
     return meet;
 }

@@ -28,12 +28,14 @@ void radial_parts(float* in) {
             in);
     }
 }
-/// Three corners, a box, a weight: 64ths, so that loops close and corners meet the box's borders, but any box now and
-/// then.
+/// Three corners, now and then a far one, a box, a weight: 64ths, so that corners meet the box's borders, or any
+/// numbers.
 inline void triangle_and_box(float* in) {
     const bool any = std::abs(in[10]) > 1.0F;
     for (int k = 0; k < 10; ++k)
         in[k] = any ? std::copysign(4.0F * share(in[k]), in[k]) : std::copysign(whole(in[k], 0, 256), in[k]) / 64.0F;
+    for (const int k : {0, 1})
+        if (in[6] < in[7]) in[k] *= 0x1p20F;  // to be interpolated from the other end
     for (const int k : {6, 7}) in[k + 2] = in[k] + std::max(std::abs(in[k + 2]), 0.25F);
     in[10] = std::copysign(whole(in[10], 0, 2), in[10]);
 }
