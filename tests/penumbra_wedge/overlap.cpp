@@ -26,7 +26,8 @@ RadialPart<T> even_part(const Rect2<T>& rect, T share) {
 template <class T>
 Rect2<T> random_rect(test::Random& random) {
     const T x0 = random.in(T(0), T(1)), y0 = random.in(T(0), T(1));
-    return {Vec2<T>(x0, y0), Vec2<T>(random.in(x0, T(1)), random.in(y0, T(1)))};
+    const T x1 = random.in(x0, T(1)), y1 = random.in(y0, T(1));
+    return {Vec2<T>(x0, y0), Vec2<T>(x1, y1)};
 }
 
 /// Any valid part: now and then empty, full, a needle, a speck, on the border, dense, all in one corner.
@@ -365,7 +366,7 @@ std::vector<Shadows> sphere_wall(int points, double half_light) {
     test::Random random(9);
     std::vector<Shadows> result;
     for (int i = 0; i < points; ++i) {
-        const glm::dvec3 point(4 + random.in(-3.0, 3.0), 3 + random.in(-3.0, 3.0), floor);
+        const glm::dvec3 point{4 + random.in(-3.0, 3.0), 3 + random.in(-3.0, 3.0), floor};  // braces: in this order
         Shadows shadows;
         for (int column = 0; column < 9; ++column)
             for (int row = 0; row < 9; ++row) {

@@ -246,7 +246,8 @@ TEST_CASE_TEMPLATE("blending through packed words errs by at most 1e-4 more", T,
             PackedParts words = pack_parts(sums);
             for (int c = 0; c < count; ++c) {
                 const double size = (count == 2 ? 1.1 : count == 5 ? 0.7 : 0.4) * random.in(0.5, 1.5);
-                const glm::dvec2 middle(random.in(-1.2, 1.2), random.in(-1.2, 1.2));
+                const double x = random.in(-1.2, 1.2), y = random.in(-1.2, 1.2);
+                const glm::dvec2 middle(x, y);
                 std::array<double, 3> angles;
                 for (double& angle : angles) angle = random.in(0.0, 6.28);
                 std::sort(angles.begin(), angles.end());

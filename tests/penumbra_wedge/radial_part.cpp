@@ -182,7 +182,7 @@ TEST_CASE_TEMPLATE("several loops in any order, in pieces, reversed with weight 
                 plain.add(a, b, 1), turned.add(b, a, -1), twice.add(a, b, 2);
                 const Vec2<T> middle = a + (b - a) * random.in(T(0), T(1));
                 edges.push_back({a, middle, 1}), edges.push_back({b, middle, -1});
-                const Vec2<T> astray(random.in(T(-1), T(1)), random.in(T(-1), T(1)));
+                const Vec2<T> astray{random.in(T(-1), T(1)), random.in(T(-1), T(1))};
                 edges.push_back({a, astray, 0});
             }
         }

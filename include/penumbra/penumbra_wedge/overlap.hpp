@@ -130,7 +130,8 @@ RadialPart<T> blend_centroid(const RadialPart<T>& a, const RadialPart<T>& b) {
 
 /// What any number of silhouettes block together if each blocks its rectangle as at random: ∫ 1 − Π (1 − ρᵢ [x ∈ Rᵢ])
 /// dx with ρ = A / |R|, on Cells × Cells cells, which take the share of each that a rectangle covers. No order, fixed
-/// memory; exact for rectangles that end on cells' borders.
+/// memory; exact for rectangles that end on cells' borders. On a wall of spheres in four parts, 4 / 8 / 16 cells err by
+/// .030 / .026 / .025, with centres of gravity by .016 / .012 / .011.
 template <class T, int Cells = 8>
 struct RectangleProduct {
     std::array<T, Cells * Cells> transmission;  ///< Π (1 − share blocked) of each cell, row by row
