@@ -24,11 +24,14 @@
 #include <penumbra/penumbra_wedge/options.hpp>
 #include <penumbra/penumbra_wedge/overlap.hpp>
 #include <penumbra/penumbra_wedge/packing.hpp>
+#include <penumbra/penumbra_wedge/point_tile.hpp>
 #include <penumbra/penumbra_wedge/radial_part.hpp>
 #include <penumbra/penumbra_wedge/shadow.hpp>
 #include <penumbra/penumbra_wedge/silhouette.hpp>
-#include <penumbra/penumbra_wedge/wedge.hpp>
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
+#include <penumbra/penumbra_wedge/wedge.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <penumbra/raster.hpp>
+#include <penumbra/umbra_volume/disk_visibility.hpp>
+#include <penumbra/umbra_volume/extrusion.hpp>

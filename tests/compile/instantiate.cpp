@@ -68,7 +68,14 @@
     template Vec3<T> wedge_vertex(const Vec3<T>&, const Vec3<T>&, const Vec2<T>&, const Box3<T>&, int);            \
     template int face_winding(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T, Surface);                         \
     template std::vector<SilhouetteEdge> silhouette(const Mesh<T>&, const EdgeAdjacency&, const Vec3<T>&,          \
-                                                    SilhouetteFrom);
+                                                    SilhouetteFrom);                                               \
+    template T disk_visibility(T);                                                                                 \
+    template T disk_visibility_cubic(T);                                                                           \
+    template T disk_visibility_sqrt(T);                                                                            \
+    template T disk_visibility(T, T, T);                                                                           \
+    template T disk_visibility_between(T, T, T);                                                                   \
+    template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const LightFrame<T>&, T);         \
+    template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const DiskLight<T>&);
 
 namespace penumbra {
 

@@ -10,6 +10,8 @@
 #include "../../shaders/penumbra/penumbra_wedge/packing.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/wedge.glsl"
+#include "../../shaders/penumbra/umbra_volume/disk_visibility.glsl"
+#include "../../shaders/penumbra/umbra_volume/extrusion.glsl"
 #pragma GCC diagnostic pop
 
 /// What was compiled.
@@ -48,6 +50,8 @@ struct Query {
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_DISK_VISIBILITY_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_EXTRUSION_GLSL
 #undef PENUMBRA_OCCLUSION_TEXTURE_BIAS
 #undef PENUMBRA_OCCLUSION_TEXTURE_CELLS
 #undef PENUMBRA_OCCLUSION_TEXTURE_CHANNELS

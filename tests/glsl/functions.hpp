@@ -12,6 +12,7 @@
 #include "functions/penumbra_wedge_overlap.hpp"
 #include "functions/penumbra_wedge_packing.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
+#include "functions/umbra_volume.hpp"
 
 namespace penumbra::test::functions {
 
@@ -26,6 +27,7 @@ inline std::vector<Function> all() {
     add_penumbra_wedge_overlap(result);
     add_penumbra_wedge_packing(result);
     add_penumbra_wedge_wedge(result);
+    add_umbra_volume(result);
     return result;
 }
 
