@@ -31,6 +31,7 @@
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
 #include <penumbra/penumbra_wedge/wedge.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
+#include <penumbra/penumbra_wedge/wedge_texels.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <penumbra/raster.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>

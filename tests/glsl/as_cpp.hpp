@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <penumbra/image.hpp>
+#include <stdexcept>
 
 #include "glsl/texture_array.hpp"
 
@@ -27,6 +29,16 @@ struct usampler2DArray {
     const penumbra::test::Sums* texture;
 };
 
+struct sampler2D {
+    const penumbra::Image<vec4>* texture;
+};
+
+inline vec4 texelFetch(sampler2D sampler, ivec2 at, int) {
+    const auto& texture = *sampler.texture;
+    if (at.x < 0 || at.y < 0 || at.x >= texture.width() || at.y >= texture.height())
+        throw std::out_of_range("texelFetch beyond the texture");
+    return texture(at.x, at.y);
+}
 inline vec4 texelFetch(sampler2DArray sampler, ivec3 at, int level) {
     return vec4(sampler.texture->at(at, level)) * sampler.unit;
 }

@@ -3,11 +3,14 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // some options leave a parameter unused
 #include "../../shaders/penumbra/light.glsl"
+#ifndef PENUMBRA_ONLY_WEDGES
 #include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
+#endif
 #include "../../shaders/penumbra/penumbra_wedge/clip.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/coverage.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/overlap.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/packing.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/shadow.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/wedge.glsl"
 #include "../../shaders/penumbra/umbra_volume/disk_visibility.glsl"
@@ -15,6 +18,7 @@
 #pragma GCC diagnostic pop
 
 /// What was compiled.
+#ifndef PENUMBRA_ONLY_WEDGES
 struct Query {
     using Slices = PENUMBRA_SLICE_SAMPLER;
     using Info = penumbra_OcclusionTexture;
@@ -31,6 +35,18 @@ struct Query {
     }
 };
 
+#endif
+struct WedgeQuery {
+    using Info = penumbra_WedgeShadow;
+    static constexpr int overlap = PENUMBRA_PENUMBRA_WEDGE_OVERLAP;
+    static constexpr int silhouette = PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE;
+    static constexpr int bitmask_size = PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE;
+
+    static float visibility(sampler2D wedges, const Info& info, vec3 point_ls) {
+        return penumbra_visibility(wedges, info, point_ls);
+    }
+};
+
 #undef PENUMBRA_BOXES_GLSL
 #undef PENUMBRA_COMBINE_GLSL
 #undef PENUMBRA_GEOMETRY_GLSL
@@ -40,13 +56,21 @@ struct Query {
 #undef PENUMBRA_NUMERIC_GLSL
 #undef PENUMBRA_N_BUFFER_GLSL
 #undef PENUMBRA_OCCLUSION_TEXTURE_SHADOW_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_BITMASK_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_BLENDING_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_CLIP_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_COVERAGE_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_MASK_BLENDING_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_OVERLAP_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_PACKING_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_POINT_TILE_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_RADIAL_PART_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_SHADOW_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_TILE_SUMS_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_INDEX_GLSL
+#undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_TEXELS_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL
@@ -59,5 +83,9 @@ struct Query {
 #undef PENUMBRA_OCCLUSION_TEXTURE_FILTER
 #undef PENUMBRA_OCCLUSION_TEXTURE_PLANE
 #undef PENUMBRA_OCCLUSION_TEXTURE_SELF_SHADOW
+#undef PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE
 #undef PENUMBRA_PENUMBRA_WEDGE_CELLS
+#undef PENUMBRA_PENUMBRA_WEDGE_OVERLAP
+#undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE
 #undef PENUMBRA_SLICE_SAMPLER
+#undef PENUMBRA_WEDGE_PARTS

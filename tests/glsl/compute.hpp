@@ -44,8 +44,15 @@ struct Compute {
     std::vector<float> run(
         const Context& context, const std::vector<float>& in,
         const std::function<void(const Program&)>& set_uniforms = [](const Program&) {}) const {
+        return run(program(context), in, set_uniforms);
+    }
+    /// To run many times.
+    Program program(const Context& context) const {
+        return Program(Text{route == Route::direct ? context.version(true) + text() : crossed(context, text())});
+    }
+    std::vector<float> run(const Program& program, const std::vector<float>& in,
+                           const std::function<void(const Program&)>& set_uniforms) const {
         const std::size_t tuples = in.size() / static_cast<std::size_t>(inputs);
-        const Program program(Text{route == Route::direct ? context.version(true) + text() : crossed(context, text())});
         std::vector<float> out(tuples * static_cast<std::size_t>(outputs));
         const auto bytes = static_cast<GLsizeiptr>(out.size() * sizeof(float));
         GLuint buffers[2];

@@ -63,6 +63,21 @@ std::map<std::string, std::vector<std::string>> calls() {
         "t.camera.scale_tx = vec2(I(3), I(4)); t.camera.width = 1; t.camera.height = 1; t.range.first = I(5); "
         "t.range.thickness = I(6); t.range.count = int(I(7)); t.half_size = vec2(I(8), I(9)); t.levels = 1; "
         "O(0) = penumbra_visibility(sums, sums, t, vec3(I(10), I(11), I(12)));"};
+    result["penumbra_wedge/wedge_texels"] = {"vec4 v = penumbra_wedge_texel(wedges, int(I(0))); " + put};
+    const std::string point =
+        "penumbra_WedgeShadow w; w.half_size = vec2(I(0), I(1)); w.scale = I(2); w.tolerance = "
+        "I(3); w.nodes = int(I(4)); vec3 at = vec3(I(5), I(6), I(7)); ";
+    const std::string wedge = point + "penumbra_WedgePoint p = penumbra_wedge_point(at, w.half_size); ";
+    result["penumbra_wedge/wedge_index"] = {
+        wedge +
+        "penumbra_WedgeCursor c = penumbra_next_edge(wedges, w, p, PENUMBRA_WEDGE_MESH, penumbra_first_edge()); "
+        "O(0) = float(c.found) + c.coefficient; O(1) = c.from.x + c.from.y; O(2) = c.to.x + c.to.y;"};
+    result["penumbra_wedge/mask_blending"] = {wedge + "O(0) = penumbra_blend_by_masks(wedges, w, p);"};
+    result["penumbra_wedge/blending"] = {
+        wedge + "O(0) = penumbra_blend(wedges, w, p);", wedge + "O(0) = penumbra_blend_by_rectangles(wedges, w, p);",
+        wedge + "O(0) = penumbra_blend_by_rectangle_product(wedges, w, p);",
+        wedge + "O(0) = penumbra_blend_by_areas(wedges, w, p, PENUMBRA_COMBINATION_PRODUCT);"};
+    result["penumbra_wedge/shadow"] = {point + "O(0) = penumbra_visibility(wedges, w, at);"};
     return result;
 }
 
@@ -74,6 +89,7 @@ std::string program(const std::string& snippet, const std::vector<std::string>& 
         "layout(std430, set = 0, binding = 1) buffer Out { float penumbra_out[]; };\n"
         "layout(set = 0, binding = 2) uniform highp sampler2DArray slices;\n"
         "layout(set = 0, binding = 3) uniform highp usampler2DArray sums;\n"
+        "layout(set = 0, binding = 4) uniform highp sampler2D wedges;\n"
         "#define I(k) penumbra_in[penumbra_at + (k)]\n#define O(k) penumbra_out[penumbra_at + (k)]\n" +
         shipped(snippet + ".glsl") + "void main() {\n    int penumbra_at = 16 * int(gl_GlobalInvocationID.x);\n";
     for (const std::string& body : bodies) text += "    { " + body + " }\n    penumbra_at += 1000000;\n";
@@ -166,6 +182,15 @@ TEST_CASE("passes and queries compile with every option") {
                            "OCCLUSION_TEXTURE_SELF_SHADOW " + self, "OCCLUSION_TEXTURE_CHANNELS 1"},
                           main);
         check("penumbra_wedge/overlap.glsl", "frag", version, {"PENUMBRA_WEDGE_CELLS 4"}, main);
+        for (int rule = 0; rule < 8; ++rule)
+            for (const std::string from : {"0", "1"})
+                for (const std::string size : {"8", "16", "32"})
+                    check("penumbra_wedge/shadow.glsl", "frag", version,
+                          {"PENUMBRA_WEDGE_OVERLAP " + std::to_string(rule), "PENUMBRA_WEDGE_SILHOUETTE " + from,
+                           "PENUMBRA_WEDGE_BITMASK_SIZE " + size},
+                          main);
+        // both methods in one shader
+        check("penumbra_wedge/shadow.glsl", "frag", version, {}, shipped("occlusion_texture/shadow.glsl") + main);
     }
     for (const std::string version : {"430 core", "310 es"})
         check("occlusion_texture/summed_area_scan.comp", "comp", version, {"SCAN_COLUMNS 1"}, "");

@@ -8,6 +8,7 @@
 #include "functions/light.hpp"
 #include "functions/numeric.hpp"
 #include "functions/occlusion_texture.hpp"
+#include "functions/penumbra_wedge_bitmask.hpp"
 #include "functions/penumbra_wedge_coverage.hpp"
 #include "functions/penumbra_wedge_overlap.hpp"
 #include "functions/penumbra_wedge_packing.hpp"
@@ -23,6 +24,7 @@ inline std::vector<Function> all() {
     add_light(result);
     add_combine(result);
     add_occlusion_texture(result);
+    add_penumbra_wedge_bitmask(result);
     add_penumbra_wedge_coverage(result);
     add_penumbra_wedge_overlap(result);
     add_penumbra_wedge_packing(result);

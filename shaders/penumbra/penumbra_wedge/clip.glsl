@@ -96,40 +96,43 @@ struct penumbra_SeenPolygon {
     int count;
 };
 
-penumbra_SeenPolygon penumbra_with_vertex(penumbra_SeenPolygon polygon, penumbra_SeenVertex v) {
-    if (polygon.count < PENUMBRA_MOST_SEEN) {
-        polygon.vertices[polygon.count] = v;
-        ++polygon.count;
+// The part of a triangle inside all planes. In one function: drivers copy polygons that functions take and return.
+penumbra_SeenPolygon penumbra_cut_triangle(vec3 a_ls, vec3 b_ls, vec3 c_ls, vec3 point_ls, penumbra_Rect2 box) {
+    penumbra_SeenPolygon polygon;
+    penumbra_SeenPolygon kept;
+    polygon.vertices[0] = penumbra_see(a_ls, point_ls, box);
+    polygon.vertices[1] = penumbra_see(b_ls, point_ls, box);
+    polygon.vertices[2] = penumbra_see(c_ls, point_ls, box);
+    polygon.count = 3;
+    for (int cut = 0; cut < 5; ++cut) {
+        kept.count = 0;
+        for (int i = 0; i < polygon.count; ++i) {
+            penumbra_SeenVertex a = polygon.vertices[i];
+            penumbra_SeenVertex b = polygon.vertices[i + 1 == polygon.count ? 0 : i + 1];
+            bool a_inside = a.from[cut] >= 0.0f;
+            bool b_inside = b.from[cut] >= 0.0f;
+            if (a_inside && kept.count < PENUMBRA_MOST_SEEN) {
+                kept.vertices[kept.count] = a;
+                ++kept.count;
+            }
+            if (a_inside != b_inside && kept.count < PENUMBRA_MOST_SEEN) {
+                if (a_inside)
+                    kept.vertices[kept.count] = penumbra_cut_point(cut, a, b);
+                else
+                    kept.vertices[kept.count] = penumbra_cut_point(cut, b, a);
+                ++kept.count;
+            }
+        }
+        polygon = kept;
     }
     return polygon;
-}
-
-// The part inside of plane `cut`.
-penumbra_SeenPolygon penumbra_cut_polygon(int cut, penumbra_SeenPolygon polygon) {
-    penumbra_SeenPolygon kept;
-    kept.count = 0;
-    for (int i = 0; i < polygon.count; ++i) {
-        penumbra_SeenVertex a = polygon.vertices[i];
-        penumbra_SeenVertex b = polygon.vertices[i + 1 == polygon.count ? 0 : i + 1];
-        bool a_inside = a.from[cut] >= 0.0f;
-        bool b_inside = b.from[cut] >= 0.0f;
-        if (a_inside) kept = penumbra_with_vertex(kept, a);
-        if (a_inside && !b_inside) kept = penumbra_with_vertex(kept, penumbra_cut_point(cut, a, b));
-        if (!a_inside && b_inside) kept = penumbra_with_vertex(kept, penumbra_cut_point(cut, b, a));
-    }
-    return kept;
 }
 
 // The fraction of `box` that a triangle hides from `point_ls`, signed by the way round: positive if what lands runs
 // counter-clockwise in (x, y). In [-1, 1] but for rounding; 0 for a box without area. Light space, world
 // units, point depth > 0; the triangle may cross the light's plane and the point's depth, or come as near as 1e-6.
 float penumbra_triangle_coverage(vec3 a_ls, vec3 b_ls, vec3 c_ls, vec3 point_ls, penumbra_Rect2 box) {
-    penumbra_SeenPolygon polygon;
-    polygon.vertices[0] = penumbra_see(a_ls, point_ls, box);
-    polygon.vertices[1] = penumbra_see(b_ls, point_ls, box);
-    polygon.vertices[2] = penumbra_see(c_ls, point_ls, box);
-    polygon.count = 3;
-    for (int cut = 0; cut < 5; ++cut) polygon = penumbra_cut_polygon(cut, polygon);
+    penumbra_SeenPolygon polygon = penumbra_cut_triangle(a_ls, b_ls, c_ls, point_ls, box);
     penumbra_Rect2 unit = penumbra_rect2(vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
     float sum = 0.0f;
     for (int i = 0; i < polygon.count; ++i) {

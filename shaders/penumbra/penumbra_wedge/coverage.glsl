@@ -41,11 +41,8 @@ penumbra_ColumnEdge penumbra_column_edge(vec2 a, vec2 b, penumbra_Rect2 box) {
     return e;
 }
 
-// The signed area of the part of `box` below the edge from a to b, between its ends' columns: summed over a closed loop
-// that runs counter-clockwise it is the loop's area inside the box, winding counted. Plane coordinates, any unit, up to
-// 1e18. 0 for a vertical edge, one of no length, one beside or below the box.
-float penumbra_edge_coverage(vec2 a, vec2 b, penumbra_Rect2 box) {
-    penumbra_ColumnEdge e = penumbra_column_edge(a, b, box);
+// What lies of the box below the edge, signed.
+float penumbra_covered_below(penumbra_ColumnEdge e, penumbra_Rect2 box) {
     float c0 = penumbra_clamp(e.y0, box.min.y, box.max.y);
     float c1 = penumbra_clamp(e.y1, box.min.y, box.max.y);
     // twice the mean of the limited y: its ends' sum, and how much longer it stays at one limit than at the other
@@ -54,6 +51,13 @@ float penumbra_edge_coverage(vec2 a, vec2 b, penumbra_Rect2 box) {
     float lean = penumbra_clamp((c0 - e.y0) + (c1 - e.y1), -most, most) / penumbra_divisor(rise);
     float twice_mean = ((c0 - box.min.y) + (c1 - box.min.y)) + lean * (c0 - c1);
     return e.sign * (0.5f * (e.x0 - e.x1) * twice_mean);
+}
+
+// The signed area of the part of `box` below the edge from a to b, between its ends' columns: summed over a closed loop
+// that runs counter-clockwise it is the loop's area inside the box, winding counted. Plane coordinates, any unit, up to
+// 1e18. 0 for a vertical edge, one of no length, one beside or below the box.
+float penumbra_edge_coverage(vec2 a, vec2 b, penumbra_Rect2 box) {
+    return penumbra_covered_below(penumbra_column_edge(a, b, box), box);
 }
 
 // Area and first moments of what lies of a box below an edge, signed as penumbra_edge_coverage; x and y are integrals

@@ -145,19 +145,21 @@ float penumbra_along(float low, float high, float lean, int k) {
     return (to - from) * float(PENUMBRA_PENUMBRA_WEDGE_CELLS) * (1.0f + lean * (2.0f * middle - 1.0f));
 }
 
+// What a part leaves of a cell, as a share.
+float penumbra_cell_transmission(penumbra_RadialPart part, float density, float lean_x, float lean_y, int cell) {
+    int j = cell / PENUMBRA_PENUMBRA_WEDGE_CELLS;
+    float row = penumbra_along(part.rect.min.y, part.rect.max.y, lean_y, j);
+    float column =
+        penumbra_along(part.rect.min.x, part.rect.max.x, lean_x, cell - PENUMBRA_PENUMBRA_WEDGE_CELLS * j);
+    return 1.0f - penumbra_saturate(density * row * column);
+}
+
 penumbra_RectangleProduct penumbra_multiply(penumbra_RectangleProduct product, penumbra_RadialPart part, float lean_x,
                                             float lean_y) {
-    if (!(part.area > 0.0f)) return product;
-    float columns[PENUMBRA_PENUMBRA_WEDGE_CELLS];
-    for (int k = 0; k < PENUMBRA_PENUMBRA_WEDGE_CELLS; ++k)
-        columns[k] = penumbra_along(part.rect.min.x, part.rect.max.x, lean_x, k);
     float density = penumbra_saturated_ratio(part.area, penumbra_area(part.rect));
-    for (int j = 0; j < PENUMBRA_PENUMBRA_WEDGE_CELLS; ++j) {
-        float row = penumbra_along(part.rect.min.y, part.rect.max.y, lean_y, j);
-        for (int k = 0; k < PENUMBRA_PENUMBRA_WEDGE_CELLS; ++k)
-            product.transmission[PENUMBRA_PENUMBRA_WEDGE_CELLS * j + k] *=
-                1.0f - penumbra_saturate(density * row * columns[k]);
-    }
+    int cells = part.area > 0.0f ? PENUMBRA_PENUMBRA_WEDGE_CELLS * PENUMBRA_PENUMBRA_WEDGE_CELLS : 0;
+    for (int k = 0; k < cells; ++k)
+        product.transmission[k] *= penumbra_cell_transmission(part, density, lean_x, lean_y, k);
     product.total += part.area;
     product.largest = part.area > product.largest ? part.area : product.largest;
     return product;
@@ -175,13 +177,18 @@ penumbra_RectangleProduct penumbra_add_centroid(penumbra_RectangleProduct produc
                              penumbra_lean(part.moment.y, part.area, part.rect.min.y, part.rect.max.y));
 }
 
+// The area that all block, from the sum of the cells' transmission.
+float penumbra_product_area(float transmission, float total, float largest) {
+    float cells = float(PENUMBRA_PENUMBRA_WEDGE_CELLS * PENUMBRA_PENUMBRA_WEDGE_CELLS);
+    return penumbra_clamp(1.0f - transmission / cells, penumbra_saturate(largest), penumbra_saturate(total));
+}
+
 // The area that all block: in [largest, min(1, total)]; 0 if nothing was added.
 float penumbra_area(penumbra_RectangleProduct product) {
     float sum = 0.0f;
     for (int k = 0; k < PENUMBRA_PENUMBRA_WEDGE_CELLS * PENUMBRA_PENUMBRA_WEDGE_CELLS; ++k)
         sum += product.transmission[k];
-    float cells = float(PENUMBRA_PENUMBRA_WEDGE_CELLS * PENUMBRA_PENUMBRA_WEDGE_CELLS);
-    return penumbra_clamp(1.0f - sum / cells, penumbra_saturate(product.largest), penumbra_saturate(product.total));
+    return penumbra_product_area(sum, product.total, product.largest);
 }
 
 #endif

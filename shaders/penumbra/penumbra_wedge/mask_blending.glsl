@@ -1,0 +1,135 @@
+// What all silhouettes block together by masks, where intervals do not say it already.
+//
+// Options: PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl
+// Error:   that of the method; decides as the C++ where the rounding of divisions is the same
+// C++:     include/penumbra/penumbra_wedge/mask_blending.hpp
+#ifndef PENUMBRA_PENUMBRA_WEDGE_MASK_BLENDING_GLSL
+#define PENUMBRA_PENUMBRA_WEDGE_MASK_BLENDING_GLSL
+
+#include "bitmask.glsl"
+#include "tile_sums.glsl"
+#include "wedge_index.glsl"
+
+// How many pieces are told apart by where they are.
+#define PENUMBRA_WEDGE_KEPT 23
+
+// A piece's rectangle, limited to the light. Edges to the left, to the right and below are not found: where the piece's
+// box may reach there, so does the rectangle.
+penumbra_Rect2 penumbra_include_hidden_edges(penumbra_WedgePoint p, penumbra_Box3 box, penumbra_Rect2 rect) {
+    float depth = p.point.z;
+    if (box.max.z >= depth) return p.light;
+    float near = depth / (depth - min(box.min.z, 0.5f * depth));
+    float far = depth / (depth - box.max.z);
+    float left = p.point.x + min((box.min.x - p.point.x) * near, (box.min.x - p.point.x) * far);
+    float right = p.point.x + max((box.max.x - p.point.x) * near, (box.max.x - p.point.x) * far);
+    float bottom = p.point.y + min((box.min.y - p.point.y) * near, (box.min.y - p.point.y) * far);
+    if (left < p.light.min.x) rect.min.x = p.light.min.x;
+    if (right > p.light.max.x) rect.max.x = p.light.max.x;
+    if (bottom < p.light.min.y) rect.min.y = p.light.min.y;
+    if (rect.max.y > p.light.max.y) rect.max.y = p.light.max.y;
+    return rect;
+}
+
+// What all pieces together block of the light, in [0, 1].
+//
+// The first way through the tree gives an interval in which the truth lies, from the exact area of each piece and from
+// a rectangle around it: two pieces overlap by no more than their rectangles do. Where it is wider than half a cell, or
+// a piece may lie over itself, the second way adds masks. Both are one loop in one function: what it calls is large, and
+// drivers copy arrays that functions take and return.
+float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p) {
+    int size = PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE;
+    float half_a_cell = 0.5f / float(size * size);
+    float unit = 1.0f / penumbra_area(p.light);
+    // the piece at hand
+    float sum = 0.0f;
+    penumbra_Rect2 rect = penumbra_empty_rect();
+    int first = size, end = 0;
+    penumbra_WindingColumn columns[PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE];
+    // all pieces
+    float areas[PENUMBRA_WEDGE_KEPT];
+    penumbra_Rect2 rects[PENUMBRA_WEDGE_KEPT];
+    int kept = 0;
+    float total = 0.0f, largest = 0.0f, overlap = 0.0f, lower = 0.0f, upper = 0.0f;
+    bool folds = false, is_second = false;
+    uint united[PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE];
+    penumbra_MaskedOcclusion masked = penumbra_no_masked_occlusion();
+    for (int k = 0; k < size; ++k) {
+        columns[k] = penumbra_empty_column();
+        united[k] = 0u;
+    }
+    penumbra_WedgeCursor c = penumbra_first_edge();
+    do {
+        c = penumbra_next_edge(wedges, info, p, PENUMBRA_WEDGE_PIECE, c);
+        if (c.found == PENUMBRA_WEDGE_EDGE) {
+            penumbra_ColumnEdge edge = penumbra_column_edge(c.from, c.to, p.light);
+            sum += c.coefficient * penumbra_covered_below(edge, p.light);
+            rect = penumbra_extend(penumbra_extend(rect, c.from), c.to);
+            if (is_second) {
+                penumbra_ColumnLine line = penumbra_column_line(edge);
+                bool less = line.rightward == (c.coefficient > 0.0f);
+                int line_first = penumbra_first_column(line.left_x, p.light, size);
+                int line_end = penumbra_first_column(line.right_x, p.light, size);
+                first = min(first, line_first);
+                end = max(end, line_end);
+                for (int k = line_first; k < line_end; ++k) {
+                    uint cells = penumbra_cells_below(line, k, p.light, size);
+                    penumbra_WindingColumn winding = columns[k];
+                    for (int times = abs(int(c.coefficient)); times > 0; --times)
+                        winding = penumbra_add_winding(winding, cells, less);
+                    columns[k] = winding;
+                }
+            }
+        } else if (c.found == PENUMBRA_WEDGE_GROUP && is_second) {
+            int wound = 0;
+            int winding = 0;
+            int fresh = 0;
+            for (int k = first; k < end; ++k) {
+                uint cells = penumbra_wound_cells(columns[k]);
+                wound += penumbra_count_bits(cells);
+                winding += penumbra_winding_sum(columns[k]);
+                fresh += penumbra_count_bits(cells & ~united[k]);
+                united[k] |= cells;
+                columns[k] = penumbra_empty_column();
+            }
+            masked = penumbra_add(masked, penumbra_settle(sum * unit), wound, winding, fresh, size * size);
+            sum = 0.0f;
+            first = size;
+            end = 0;
+        } else if (c.found == PENUMBRA_WEDGE_GROUP) {
+            float area = penumbra_saturate(penumbra_settle(sum * unit));
+            vec4 low = penumbra_wedge_texel(wedges, c.group);
+            vec4 high = penumbra_wedge_texel(wedges, c.group + 1);
+            bool simple = (int(high.w) & PENUMBRA_WEDGE_SIMPLE) != 0;
+            folds = folds || (!simple && penumbra_settle(abs(sum * unit)) > 0.0f);
+            if (area > 0.0f) {
+                rect = penumbra_include_hidden_edges(p, penumbra_box3(vec3(low), vec3(high)), rect);
+                for (int k = 0; k < kept; ++k) {
+                    float in_both = penumbra_area(penumbra_intersect(rect, rects[k])) * unit;
+                    overlap += min(in_both, min(area, areas[k]));
+                }
+                total += area;
+                largest = max(largest, area);
+                if (kept < PENUMBRA_WEDGE_KEPT) {
+                    areas[kept] = area;
+                    rects[kept] = rect;
+                    ++kept;
+                } else {
+                    overlap += area;  // nobody will know where this one is
+                }
+            }
+            sum = 0.0f;
+            rect = penumbra_empty_rect();
+        } else if (!is_second) {
+            upper = penumbra_saturate(total);
+            lower = penumbra_clamp(total - overlap, largest, upper);
+            is_second = folds || upper - lower > half_a_cell;
+            if (is_second) {
+                c = penumbra_first_edge();
+                c.found = PENUMBRA_WEDGE_GROUP;  // not over
+            }
+        }
+    } while (c.found != PENUMBRA_WEDGE_NOTHING);
+    return is_second ? masked.occlusion : 0.5f * (lower + upper);
+}
+
+#endif

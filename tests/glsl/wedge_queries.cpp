@@ -1,0 +1,118 @@
+// The query of penumbra wedges on the driver, by the texels of the C++: in compute shaders for every option, and by way
+// of SPIRV-Cross.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "compute.hpp"
+#include "wedge_cases.hpp"
+
+using namespace penumbra;
+using test::Api;
+using test::Context;
+using test::Program;
+using test::Route;
+using test::WedgeCase;
+using test::WedgeDifference;
+
+namespace {
+
+const bool mutant = std::getenv("PENUMBRA_SHADERS") != nullptr;
+const int points = mutant ? 192 : 768;  // a scene
+
+/// Texels of floats, without filtering.
+class FloatTexture {
+  public:
+    explicit FloatTexture(const Image<glm::vec4>& texels) {
+        const glm::vec4 none(0);
+        const int width = texels.empty() ? 1 : texels.width(), height = texels.empty() ? 1 : texels.height();
+        glGenTextures(1, &name_);
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, name_);
+        glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT,
+                        texels.empty() ? &none : texels.data());
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    ~FloatTexture() { glDeleteTextures(1, &name_); }
+    FloatTexture(const FloatTexture&) = delete;
+    FloatTexture& operator=(const FloatTexture&) = delete;
+
+  private:
+    GLuint name_ = 0;
+};
+
+void set_uniforms(const WedgeTexels& texels, const Program& program) {
+    program.set("wedges", 0);
+    program.set("half_size", texels.half_size), program.set("scale", texels.scale);
+    program.set("tolerance", texels.tolerance), program.set("nodes", texels.nodes);
+}
+
+/// All scenes by one program.
+WedgeDifference difference(const Context& context, const PenumbraWedgeOptions& options, Route route) {
+    WedgeDifference result;
+    const std::vector<test::WedgeScene> scenes = test::wedge_scenes();
+    const test::Compute compute{
+        "penumbra_wedge/shadow.glsl",
+        3,
+        1,
+        test::wedge_defines(options),
+        "uniform highp sampler2D wedges; uniform vec2 half_size; uniform float scale, tolerance; uniform int nodes;\n",
+        "penumbra_WedgeShadow info; info.half_size = half_size; info.scale = scale; info.tolerance = tolerance; "
+        "info.nodes = nodes; O(0) = penumbra_visibility(wedges, info, vec3(I(0), I(1), I(2)));",
+        route};
+    const Program program = compute.program(context);
+    for (const test::WedgeScene& scene : scenes) {
+        const WedgeCase query(scene, options, points);
+        const FloatTexture texture(query.texels.texels);
+        std::vector<float> in;
+        for (const Vec3<float>& p : query.points_ls) in.insert(in.end(), {p.x, p.y, p.z});
+        const std::vector<float> out =
+            compute.run(program, in, [&](const Program& used) { set_uniforms(query.texels, used); });
+        for (std::size_t i = 0; i < out.size(); ++i) result.add(out[i], query.truth[i]);
+    }
+    return result;
+}
+
+/// Masks may take a cell otherwise where its middle is on an edge to rounding: at few points, and by a cell or two.
+void check(const PenumbraWedgeOptions& options, Api api, Route route) {
+    const WedgeDifference got = difference(Context(api), options, route);
+    const bool masks = options.overlap == OverlapRule::bitmask;
+    const double bound = masks ? 2.0 / (options.bitmask_size * options.bitmask_size) : 2e-6;
+    const std::string name = test::wedge_name(options);
+    std::printf("%-34s %-8s%-14s worst %.3g, cells taken otherwise at %d points\n", name.c_str(),
+                api == Api::es ? "ES" : "desktop", route == Route::direct ? "" : " SPIRV-Cross", got.worst, got.flips);
+    CAPTURE(name);
+    CAPTURE(static_cast<int>(api));
+    CAPTURE(static_cast<int>(route));
+    CHECK(got.worst <= bound);
+    CHECK(got.flips <= (masks ? points / 256 : 0));
+}
+
+}  // namespace
+
+TEST_CASE("visibility is that of the C++, by every rule, with silhouettes from points and from the light") {
+    std::vector<PenumbraWedgeOptions> all;
+    for (int rule = 0; rule < 7; ++rule) all.push_back({static_cast<OverlapRule>(rule), 32, SilhouetteFrom::point});
+    for (const int size : {8, 16, 32}) all.push_back({OverlapRule::bitmask, size, SilhouetteFrom::point});
+    for (const OverlapRule rule : {OverlapRule::additive, OverlapRule::rectangles, OverlapRule::bitmask})
+        all.push_back({rule, 16, SilhouetteFrom::light_center});
+    if (mutant)  // mutants.sh runs this a few hundred times
+        all = {{OverlapRule::bitmask, 32, SilhouetteFrom::point}, {OverlapRule::additive, 32, SilhouetteFrom::light_center}};
+    for (const PenumbraWedgeOptions& options : all) check(options, Api::desktop, Route::direct);
+}
+
+TEST_CASE("and so it is in ES, and in what SPIRV-Cross makes of it") {
+    if (mutant) return;
+    for (const Api api : {Api::desktop, Api::es})
+        for (const Route route : test::routes()) {
+            if (api == Api::desktop && route == Route::direct) continue;
+            check({OverlapRule::bitmask, 32, SilhouetteFrom::point}, api, route);
+            check({OverlapRule::rectangle_product, 32, SilhouetteFrom::point}, api, route);
+            check({OverlapRule::product_quadrants, 32, SilhouetteFrom::light_center}, api, route);
+        }
+}
