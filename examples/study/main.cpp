@@ -54,7 +54,10 @@ std::vector<Scene> wanted_scenes(const Arguments& arguments) {
 /// Scenes that compare rules for overlap are many and plain: they get by with less.
 Effort effort_for(Subject subject, const Arguments& arguments) {
     Effort effort;
-    if (subject == Subject::overlap) effort.most_rays = 512, effort.width = 400, effort.height = 300;
+    if (subject == Subject::overlap) {
+        effort.points = 4096, effort.timed = 2048, effort.most_rays = 512, effort.rounds = 3;
+        effort.width = 400, effort.height = 300;
+    }
     if (arguments.quick) effort = {2048, 1024, 1024, 256, 3, 280, 210, 128};
     if (arguments.points > 0) effort.points = arguments.points;
     return effort;

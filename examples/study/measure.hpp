@@ -16,7 +16,7 @@ struct Effort {
     std::size_t timed = 4096;   ///< points that are timed
     int truth_rays = 4096;      ///< a point
     int most_rays = 1024;       ///< of the sweep, from 4 on by doubling
-    int rounds = 7;             ///< every timing is the median of at most so many, all settings in turn
+    int rounds = 5;             ///< every timing is the median of at most so many, all settings in turn
     int width = 560, height = 420;
     int picture_rays = 256;  ///< a pixel of the true picture
 

@@ -77,7 +77,7 @@ std::vector<float> trace(const reference::Scene& traced, const Scene& scene, con
 }
 
 std::vector<bool> overlaps(const Scene& scene, const Points& points) {
-    constexpr int rays = 256;
+    constexpr int rays = 128;
     std::vector<bool> result(points.size());
     if (scene.casters.size() < 2) return result;
     // the same rays each time, so that the sum exceeds the whole by just what is hidden more than once

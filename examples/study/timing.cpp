@@ -6,7 +6,7 @@ namespace penumbra::study {
 
 void Timing::first() {
     constexpr std::size_t few = 256;
-    constexpr double longest = 0.5;  // seconds
+    constexpr double longest = 0.25;  // seconds
     if (points_ > few) {
         const auto start = Clock::now();
         run_(few);
@@ -21,7 +21,7 @@ void Timing::first() {
 
 void Timing::again() {
     run_(points_);
-    const int repeats = first_seconds_ < 2e-3 ? 4 : 1;
+    const int repeats = first_seconds_ < 2e-3 ? 2 : 1;
     const auto start = Clock::now();
     for (int i = 0; i < repeats; ++i) run_(points_);
     seconds_.push_back(seconds_since(start) / repeats);

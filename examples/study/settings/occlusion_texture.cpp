@@ -114,14 +114,16 @@ std::vector<Setting> occlusion_texture_settings(Sweep sweep) {
             Options base;
             base.blend = blend;
             base.slices = slices;
-            for (const int cells : {1, 4}) all.add(base, [&](Options& o) { o.light_cells = cells; });
-            for (const SliceFilter filter : {SliceFilter::mipmap, SliceFilter::n_buffer})
-                all.add(base, [&](Options& o) { o.filter = filter; });
-            if (quick) continue;
-            for (const float bias : {0.1F, 0.25F, 0.5F}) all.add(base, [&](Options& o) { o.self_shadow_bias = bias; });
-            all.add(base, [](Options& o) { o.resolution = 256; });
             all.add(base, [](Options& o) { o.self_shadow_bias = 0.25F, o.light_cells = 4; });
-            if (slices == 12 || slices == 32) continue;
+            if (slices == 12) continue;
+            for (const int cells : {1, 4}) all.add(base, [&](Options& o) { o.light_cells = cells; });
+            if (slices != 32)
+                for (const SliceFilter filter : {SliceFilter::mipmap, SliceFilter::n_buffer})
+                    all.add(base, [&](Options& o) { o.filter = filter; });
+            if (quick) continue;
+            for (const float bias : {0.1F, 0.25F}) all.add(base, [&](Options& o) { o.self_shadow_bias = bias; });
+            all.add(base, [](Options& o) { o.resolution = 256; });
+            if (slices == 32) continue;
             all.add(base, [](Options& o) { o.plane = SlicePlane::bottom; });
             for (const SliceFaces faces : {SliceFaces::all, SliceFaces::facing})
                 all.add(base, [&](Options& o) { o.faces = faces; });
@@ -129,17 +131,20 @@ std::vector<Setting> occlusion_texture_settings(Sweep sweep) {
             all.add(base, [](Options& o) { o.self_shadow = SelfShadow::clear; });
         }
     }
-    // the fastest for foliage: few slices, coarse textures
-    for (const int cells : {1, 2}) {
-        for (const int slices : {4, 6, 8}) {
-            if (quick && (slices != 4 || cells != 2)) continue;
-            all.add({}, [&](Options& o) {
-                o.slices = slices, o.resolution = 256, o.light_cells = cells;
-                o.blend = SliceBlend::scattered(), o.self_shadow_bias = 0.1F;
-            });
-        }
-    }
+    // for foliage: few slices, little bias
+    const auto foliage = [&](int slices, int cells, int resolution, float bias) {
+        all.add({}, [&](Options& o) {
+            o.slices = slices, o.light_cells = cells, o.resolution = resolution, o.self_shadow_bias = bias;
+            o.blend = SliceBlend::scattered();
+        });
+    };
+    foliage(5, 2, 512, 0.02F);
     if (quick) return all.settings;
+    for (const int slices : {4, 6}) {
+        for (const int cells : {1, 2}) foliage(slices, cells, 256, 0.1F);
+        for (const int resolution : {512, 768}) foliage(slices, 2, resolution, 0.02F);
+    }
+    foliage(6, 3, 1024, 0.02F);
     all.add({}, [](Options& o) { o.resolution = 1024; });
     all.add({}, [](Options& o) { o.projection = SliceProjection::orthographic; });
     // the paper: one cell, all faces, bottom planes, N-Buffers, probabilities, fade
