@@ -32,9 +32,9 @@ inline std::vector<Mesh<float>> overlapping_spheres() {
     std::vector<Mesh<float>> spheres;
     for (int i = 0; i < 30; ++i) {
         const float size = static_cast<float>(i) * 0.01F;
-        spheres.push_back(scaled_at(icosphere<float>(i % 3 == 0 ? 2 : 1), 0.2F + size,
-                                    {static_cast<float>(i % 6) * 0.5F - 1.25F, 1.0F + 7.0F * size,
-                                     static_cast<float>(i / 6) * 0.5F - 1.0F}));
+        spheres.push_back(scaled_at(
+            icosphere<float>(i % 3 == 0 ? 2 : 1), 0.2F + size,
+            {static_cast<float>(i % 6) * 0.5F - 1.25F, 1.0F + 7.0F * size, static_cast<float>(i / 6) * 0.5F - 1.0F}));
     }
     return spheres;
 }
@@ -86,8 +86,7 @@ inline std::vector<std::string> wedge_defines(const PenumbraWedgeOptions& option
         return std::string("PENUMBRA_PENUMBRA_WEDGE_") + name + " " + std::to_string(value);
     };
     return {define("OVERLAP", static_cast<int>(options.overlap)),
-            define("SILHOUETTE", static_cast<int>(options.silhouette)),
-            define("BITMASK_SIZE", options.bitmask_size)};
+            define("SILHOUETTE", static_cast<int>(options.silhouette)), define("BITMASK_SIZE", options.bitmask_size)};
 }
 inline std::string wedge_name(const PenumbraWedgeOptions& options) {
     constexpr const char* names[] = {"additive",   "maximum",   "product",           "quadrants",
