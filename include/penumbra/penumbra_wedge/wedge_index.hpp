@@ -94,11 +94,12 @@ class WedgeIndex {
                (!is_part && box.min.y - half.y > std::max(tile.top * near, tile.top * far));
     }
 
-    /// How near a plane through `at` may pass to a point before the point itself must be asked.
-    T slack(const PointTile<T>& tile, const Vec3<T>& at) const {
-        const Vec3<T> way = glm::abs(tile.center - at);
-        const T rounding = T(8) * std::numeric_limits<T>::epsilon() * (way.x + way.y + way.z + tile.radius);
-        return tile.radius + T(2) * tolerance_ + rounding;
+    /// How far the signed distances of a tile's points from planes may be from those of its centre, rounding included;
+    /// `normal` bounds the components of the planes' unit normals, `way` those from the planes to the centre.
+    static T spread(const PointTile<T>& tile, const Vec3<T>& normal, const Vec3<T>& way) {
+        const Vec3<T> half = (tile.box.max - tile.box.min) * T(0.5);
+        return std::min(tile.radius, glm::dot(normal, half)) +
+               T(4) * std::numeric_limits<T>::epsilon() * glm::dot(normal, way + half);
     }
     bool touches(const PointTile<T>& tile, const Box3<T>& box) const {
         const Vec3<T> low = tile.box.min - tolerance_ * T(2), high = tile.box.max + tolerance_ * T(2);
@@ -114,11 +115,14 @@ class WedgeIndex {
             const Vec3<T> middle = (node.box.min + node.box.max) * T(0.5), way = tile.center - middle;
             const Vec3<T> a = way * node.normal_min, b = way * node.normal_max;
             const Vec3<T> low = glm::min(a, b), high = glm::max(a, b);
-            const T room = slack(tile, middle);
-            const bool front = low.x + low.y + low.z + node.offset_min > room;
-            const bool away = high.x + high.y + high.z + node.offset_max < -room;
-            if (!front && !away) return false;
-            const int coefficient = away ? -1 : node.solid ? 0 : 1;
+            const T room = spread(tile, glm::max(glm::abs(node.normal_min), glm::abs(node.normal_max)),
+                                  glm::abs(way) + (node.box.max - middle));
+            const T nearest = low.x + low.y + low.z + node.offset_min - room;
+            const T farthest = high.x + high.y + high.z + node.offset_max + room;
+            const bool away = farthest<-tolerance_, not_away = nearest> - tolerance_;
+            const bool front = nearest > tolerance_, edge_on = not_away && farthest < tolerance_;
+            if (!away && !(node.solid ? not_away : front || edge_on)) return false;
+            const int coefficient = away ? -1 : front && !node.solid ? 1 : 0;
             least = std::min(least, coefficient), most = std::max(most, coefficient);
         }
         const bool none_reaches_beyond = node.box.max.z < tile.box.min.z;
@@ -157,7 +161,10 @@ class WedgeIndex {
     void find_coefficients(const PointTile<T>& tile, const Face& face, Coefficients& c, std::size_t f) const {
         const bool from_light = from_ == SilhouetteFrom::light_center;
         const T middle = glm::dot(face.normal, tile.center - face.a);
-        const bool one_side = from_light ? !touches(tile, box_of(face)) : std::abs(middle) > slack(tile, face.a);
+        const T room = spread(tile, glm::abs(face.normal), glm::abs(tile.center - face.a));
+        const bool away_all = middle + room < -tolerance_;
+        const bool front_all = middle - room > (face.solid ? -tolerance_ : tolerance_);
+        const bool one_side = from_light ? !touches(tile, box_of(face)) : away_all || front_all;
         const bool before_all = face.depth_max < tile.box.min.z, before_none = face.depth_max >= tile.box.max.z;
         c.uniform[f] = before_none || (before_all && one_side);
         c.value[f] = before_none ? T(0) : from_light ? static_cast<T>(face.from_light) : coefficient_of(face, middle);
