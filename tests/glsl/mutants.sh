@@ -46,25 +46,32 @@ try_mutant() {
     cp -r "$root/shaders" "$root/tests" "$tree"
     perl -pe "substr(\$_, $start, $length) = '$new' if \$. == $line" "$file" >"$tree/shaders/penumbra/$file"
     local verdict=survives
-    if ! passes "$tree"; then verdict=caught; fi
+    if ! passes "$tree" "$file"; then verdict=caught; fi
     rm -rf "$tree"
     echo "$verdict: $file: $(sed -n "${line}p" "$file" | sed 's/^ *//') [$((start + 1)): $new]"
 }
 
-# Whether all tests pass on a tree: on the driver, then as C++, which sees reads beyond textures.
+# Whether the tests that read a snippet pass on a tree: on the driver, then as C++, which sees reads beyond textures.
 passes() (
     cd "$1"
-    for program in functions lookups queries; do
+    local queries="lookups queries wedge_queries" as_cpp="as_cpp_lookups as_cpp_wedges"
+    case $2 in
+        occlusion_texture/*) queries="lookups queries" as_cpp=as_cpp_lookups ;;
+        penumbra_wedge/*) queries=wedge_queries as_cpp=as_cpp_wedges ;;
+    esac
+    for program in functions $queries; do
         PENUMBRA_SHADERS=$1/shaders timeout 60 "$programs/test_glsl_$program" --abort-after=1 >/dev/null 2>&1 || exit 1
     done
-    g++ -std=c++17 -O1 -I"$root/include" -Itests tests/main.cpp tests/glsl/as_cpp_lookups.cpp -o lookups 2>/dev/null &&
-        timeout 60 ./lookups --abort-after=1 >/dev/null 2>&1
+    for program in $as_cpp; do
+        g++ -std=c++17 -O1 -I"$root/include" -Itests tests/main.cpp "tests/glsl/$program.cpp" -o "$program" 2>/dev/null &&
+            PENUMBRA_SHADERS=$1/shaders timeout 60 "./$program" --abort-after=1 >/dev/null 2>&1 || exit 1
+    done
 )
 export -f try_mutant passes
 export root folder programs
 
 cp -r "$root/shaders" "$root/tests" "$folder"
-passes "$folder" || { echo "the tests fail without any mutant" >&2; exit 2; }
+passes "$folder" all || { echo "the tests fail without any mutant" >&2; exit 2; }
 
 cd "$root/shaders/penumbra"
 files=(${1:+"$1.glsl"})

@@ -13,6 +13,7 @@
 #include "cases.hpp"
 #include "program.hpp"
 #include "support/folder.hpp"
+#include "wedge_cases.hpp"
 
 using namespace penumbra;
 using test::QueryCase;
@@ -51,6 +52,12 @@ std::string texture(const char* name, const test::TextureArray<Texel>& array) {
         text += "{width: " + std::to_string(level.size.x) + ", height: " + std::to_string(level.size.y) +
                 ", texels: \"" + hex(level.texels.data(), level.texels.size() * sizeof(Texel)) + "\"},\n";
     return text + "]}";
+}
+
+std::string texture(const char* name, const Image<glm::vec4>& image) {
+    return std::string("{name: \"") + name + "\", kind: \"floats\", levels: [{width: " + std::to_string(image.width()) +
+           ", height: " + std::to_string(image.height()) + ", texels: \"" +
+           hex(image.data(), image.size() * sizeof(glm::vec4)) + "\"}]}";
 }
 
 /// A fragment shader over the image, and what its first `channels` outputs should be.
@@ -183,6 +190,21 @@ Job visibility(const std::string& name, SliceFilter filter, int channels) {
     return job;
 }
 
+Job wedges(const std::string& name, const test::WedgeScene& scene, const PenumbraWedgeOptions& options) {
+    const test::WedgeCase query(scene, options, count);
+    const WedgeTexels& texels = query.texels;
+    Job job{name, "penumbra_wedge/shadow.glsl", "", "", {texture("masks", texels.texels)}, "sampler2D", {}, 1, {},
+            2e-6};
+    for (const std::string& define : test::wedge_defines(options)) job.defines += "#define " + define + "\n";
+    job.body = "penumbra_WedgeShadow info; info.half_size = " + exact(texels.half_size) +
+               "; info.scale = " + exact(texels.scale) + "; info.tolerance = " + exact(texels.tolerance) +
+               "; info.nodes = " + std::to_string(texels.nodes) +
+               "; vec4 v = vec4(penumbra_visibility(masks, info, penumbra_in.xyz));";
+    for (const Vec3<float>& p : query.points_ls) job.inputs.insert(job.inputs.end(), {p.x, p.y, p.z, 0.0F});
+    for (const float v : query.truth) job.truth.push_back(static_cast<double>(v));
+    return job;
+}
+
 }  // namespace
 
 TEST_CASE("lookups and queries in WebGL2") {
@@ -201,6 +223,9 @@ TEST_CASE("lookups and queries in WebGL2") {
         visibility("visibility_summed_area", SliceFilter::summed_area, 4),
         visibility("visibility_n_buffer", SliceFilter::n_buffer, 4),
         visibility("visibility_mipmap", SliceFilter::mipmap, 1),
+        wedges("wedges_bitmask", test::wedge_scenes()[1], {}),
+        wedges("wedges_rectangles", test::wedge_scenes()[3],
+               {OverlapRule::rectangles, 32, SilhouetteFrom::light_center}),
     };
     const std::string page = page_after(jobs);
     for (const Job& job : jobs) {
