@@ -99,8 +99,8 @@ float penumbra_blend_by_rectangles(highp sampler2D wedges, penumbra_WedgeShadow 
 
 #define PENUMBRA_WEDGE_ALL_CELLS (PENUMBRA_PENUMBRA_WEDGE_CELLS * PENUMBRA_PENUMBRA_WEDGE_CELLS)
 
-// The same in any order: a RectangleProduct of each quadrant, all in one array, since drivers copy arrays that functions
-// take and return.
+// The same in any order: a RectangleProduct of each quadrant, all in one array, since drivers copy arrays that
+// functions take and return.
 float penumbra_blend_by_rectangle_product(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p) {
     penumbra_RadialPartBuilder builders[4];
     float transmission[4 * PENUMBRA_WEDGE_ALL_CELLS];

@@ -34,8 +34,8 @@ penumbra_Rect2 penumbra_include_hidden_edges(penumbra_WedgePoint p, penumbra_Box
 //
 // The first way through the tree gives an interval in which the truth lies, from the exact area of each piece and from
 // a rectangle around it: two pieces overlap by no more than their rectangles do. Where it is wider than half a cell, or
-// a piece may lie over itself, the second way adds masks. Both are one loop in one function: what it calls is large, and
-// drivers copy arrays that functions take and return.
+// a piece may lie over itself, the second way adds masks. Both are one loop in one function: what it calls is large,
+// and drivers copy arrays that functions take and return.
 float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p) {
     int size = PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE;
     float half_a_cell = 0.5f / float(size * size);

@@ -1,8 +1,8 @@
 // Soft shadows of a rectangle light from the silhouettes of casters: the query, by the index of a shadow as a texture.
 //
 // The host makes the texture and what else a query needs by wedge_texels(shadow); points come in light space, as
-// penumbra_to_light(shadow.frame(), point) gives them. Points on casters may be off by info.tolerance / info.scale: raise
-// it for those that a rasterizer interpolates less exactly.
+// penumbra_to_light(shadow.frame(), point) gives them. Points on casters may be off by info.tolerance / info.scale:
+// raise it for those that a rasterizer interpolates less exactly.
 //
 // Options: PENUMBRA_PENUMBRA_WEDGE_OVERLAP: see blending.glsl
 //          PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl

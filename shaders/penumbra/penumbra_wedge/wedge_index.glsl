@@ -204,8 +204,8 @@ penumbra_WedgeCursor penumbra_next_node(highp sampler2D wedges, penumbra_WedgePo
 }
 
 // On to the next edge that matters, or to the end of a group, which is what `groups` says: PENUMBRA_WEDGE_MESH or
-// _PIECE. Only groups that may block are entered. The sum of coefficient * edge_coverage over a group's edges is what it
-// blocks of p.light, winding counted. Begin with penumbra_first_edge(), and end with PENUMBRA_WEDGE_NOTHING.
+// _PIECE. Only groups that may block are entered. The sum of coefficient * edge_coverage over a group's edges is what
+// it blocks of p.light, winding counted. Begin with penumbra_first_edge(), and end with PENUMBRA_WEDGE_NOTHING.
 penumbra_WedgeCursor penumbra_next_edge(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p,
                                         int groups, penumbra_WedgeCursor c) {
     c.found = PENUMBRA_WEDGE_NOTHING;
