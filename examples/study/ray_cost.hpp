@@ -48,8 +48,8 @@ inline RayCost cost_on(const std::vector<const RayRow*>& curve, double rmse) {
     return {Bound::lower, last.ns_per_point, double(last.rays), name};
 }
 
-/// The cost on the cheapest of all samplers that are as accurate as `rmse` on the scene. If none is, the cheapest of
-/// their last rows, as a lower bound.
+/// The cost on the cheapest of all samplers that are as accurate as `rmse` on the scene. If none is, the cheapest row
+/// of most rays, as a lower bound: samplers that were swept less far had fallen behind.
 inline RayCost ray_cost(const std::vector<RayRow>& rows, const std::string& scene, double rmse) {
     std::map<std::pair<std::string, int>, std::vector<const RayRow*>> curves;
     for (const RayRow& row : rows)
@@ -59,7 +59,9 @@ inline RayCost ray_cost(const std::vector<RayRow>& rows, const std::string& scen
         std::sort(curve.begin(), curve.end(), [](auto* a, auto* b) { return a->rays < b->rays; });
         const RayCost cost = cost_on(curve, rmse);
         const bool reaches = cost.bound != Bound::lower, best_reaches = best.bound != Bound::lower;
-        if (best.ns <= 0.0 || (reaches == best_reaches ? cost.ns < best.ns : reaches)) best = cost;
+        const bool further = !reaches && cost.rays > best.rays, as_far = reaches || cost.rays == best.rays;
+        const bool better = reaches == best_reaches ? further || (as_far && cost.ns < best.ns) : reaches;
+        if (best.ns <= 0.0 || better) best = cost;
     }
     return best;
 }

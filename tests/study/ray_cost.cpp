@@ -74,6 +74,15 @@ TEST_CASE("cost at equal error comes from a sampler that reaches it, though a ch
     CHECK(cost.ns == near(3.0 * std::pow(rmse / 0.5, -1.0 / 0.75)));
 }
 
+TEST_CASE("a bound comes from the samplers that were swept furthest, though others end cheaper") {
+    std::vector<RayRow> rows = two_samplers();
+    for (int n = 4; n <= 256; n *= 2) rows.push_back({"scene", "r2", 1, n, 0.45 * std::pow(n, -0.5), 2.5 * n});
+    const RayCost cost = ray_cost(rows, "scene", 1e-6);  // r2 ends at 640 ns
+    CHECK(cost.bound == Bound::lower);
+    CHECK(cost.rays == near(1024.0));
+    CHECK(cost.ns == near(2048.0));
+}
+
 TEST_CASE("cost at equal error survives an error of zero and a scene without rays") {
     const std::vector<RayRow> rows = {{"scene", "r2", 1, 4, 0.1, 40.0}, {"scene", "r2", 1, 8, 0.0, 80.0}};
     const RayCost exact = ray_cost(rows, "scene", 0.0), between = ray_cost(rows, "scene", 0.05);
