@@ -12,7 +12,7 @@
 namespace penumbra::study {
 
 struct Effort {
-    std::size_t points = 8192;  ///< that errors are measured at
+    std::size_t points = 4096;  ///< that errors are measured at
     std::size_t timed = 4096;   ///< points that are timed
     int truth_rays = 4096;      ///< a point
     int most_rays = 1024;       ///< of the sweep, from 4 on by doubling
@@ -22,7 +22,7 @@ struct Effort {
 
     // Errors are rare and large, at contacts and edges, so they need many places; batches are timed on neighbours, as a
     // picture would have them.
-    static constexpr std::size_t error_run = 8, timed_run = 64;
+    static constexpr std::size_t error_run = 4, timed_run = 64;
 };
 
 /// Adds the scene's rows, rays and pictures to the study; pictures are written to `folder`. Says on stderr how far it

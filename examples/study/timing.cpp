@@ -20,7 +20,7 @@ void Timing::first() {
 }
 
 void Timing::again() {
-    run_(points_);
+    if (!is_long()) run_(points_);
     const int repeats = first_seconds_ < 2e-3 ? 2 : 1;
     const auto start = Clock::now();
     for (int i = 0; i < repeats; ++i) run_(points_);
@@ -29,7 +29,7 @@ void Timing::again() {
 
 int Timing::rounds(int most) const {
     if (first_seconds_ > 0.1) return 0;
-    return first_seconds_ > 0.02 ? std::min(most, 2) : most;
+    return is_long() ? std::min(most, 2) : most;
 }
 
 double Timing::ns_per_point() const {

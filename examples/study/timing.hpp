@@ -22,8 +22,8 @@ class Timing {
 
     /// Runs it once: the first time, which only counts if it is long.
     void first();
-    /// Runs it once unseen, so that it finds its data in the caches that a picture in progress would leave it, then
-    /// with the clock; what is very short, several times.
+    /// Runs it with the clock; unless it is long, once unseen before, so that it finds its data in the caches that a
+    /// picture in progress would leave it; what is very short, several times.
     void again();
     /// How often `again` is worth its time: seldom for what is long, as that averages over itself.
     int rounds(int most) const;
@@ -31,6 +31,8 @@ class Timing {
     double ns_per_point() const;
 
   private:
+    bool is_long() const { return first_seconds_ > 0.02; }
+
     std::size_t points_;
     std::function<void(std::size_t)> run_;
     double first_seconds_ = 0.0;
