@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 
 #include "plot.hpp"
 
@@ -106,60 +103,6 @@ void write_page(const fs::path& folder, const Json& study, bool with_chart) {
     write_file(folder / "index.html", page);
 }
 
-/// Three significant digits or all before the point, no exponent.
-std::string digits(double x) {
-    const int decimals = x >= 100.0 ? 0 : x >= 10.0 ? 1 : 2;
-    const bool whole = x < 1e9 && x == static_cast<double>(static_cast<long>(x));
-    return fmt::format("{:.{}f}", x, whole ? 0 : decimals);
-}
-
-/// "87", or "> 40" where only a limit is known.
-std::string bounded(Bound bound, double known, double limit, const char* unit) {
-    if (bound == Bound::none) return known > 0.0 ? digits(known) + unit : "–";
-    return (bound == Bound::lower ? "> " : "< ") + digits(limit) + unit;
-}
-
-using Cells = std::array<std::string, 7>;
-
-Cells cells(const Study& study, const Row& row) {
-    return {row.scene,
-            row.method,
-            varying_knobs_text(study, row) + (row.is_default ? "  (default)" : ""),
-            fmt::format("{:.4f}", row.rmse),
-            digits(row.ns_per_point),
-            bounded(row.ray_ns_bound, row.rays_at_equal_rmse, row.rays_limit, ""),
-            bounded(row.ray_ns_bound, row.speedup, row.ray_ns_limit / row.ns_per_point, "×")};
-}
-
-std::size_t columns(const std::string& utf8) {
-    return static_cast<std::size_t>(std::count_if(
-        utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-void print_line(std::FILE* out, const char* mark, const Cells& line, const std::array<std::size_t, 7>& widths) {
-    std::string text = mark;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const std::string pad(widths[i] - columns(line[i]), ' ');
-        text += "  " + (i < 3 ? line[i] + pad : pad + line[i]);
-    }
-    fmt::print(out, "{}\n", text);
-}
-
-void print_costs(const Study& study, std::FILE* out) {
-    for (const std::string& figure : cost_figures(study)) {
-        fmt::print(out, "\n{:>10}  {:>10}  {:>8}  {:>9}  series\n", figure, "ns/point", "RMSE", "build, ms");
-        std::vector<const Cost*> costs;
-        for (const Cost& cost : study.costs)
-            if (cost.figure == figure) costs.push_back(&cost);
-        std::stable_sort(costs.begin(), costs.end(),
-                         [](const Cost* a, const Cost* b) { return a->series < b->series; });
-        for (const Cost* cost : costs)
-            fmt::print(out, "{:>10}  {:>10}  {:>8.4f}  {:>9}  {}\n", cost->x,
-                       (cost->at_least ? "> " : "") + digits(cost->ns_per_point), cost->rmse,
-                       cost->build_ms < 0.0 ? "" : digits(cost->build_ms), cost->series);
-    }
-}
-
 }  // namespace
 
 Json to_json(const Study& study) {
@@ -249,53 +192,6 @@ std::vector<std::string> write_study(const Study& study, const fs::path& folder)
         fs::copy_file(chart, folder / "chart.min.js", fs::copy_options::overwrite_existing);
     write_page(folder, json, !chart.empty());
     return notes;
-}
-
-void print_table(const Study& study, std::FILE* out) {
-    print_costs(study, out);
-    if (study.rows.empty()) return;
-    const Cells head = {"scene", "method", "knobs", "RMSE", "ns/point", "rays at equal RMSE", "speedup"};
-    std::vector<std::pair<const char*, Cells>> lines;  // a mark and a row; empty between scenes
-    for (const SceneInfo& scene : study.scenes) {
-        const Row* best = best_row(study, scene.name);
-        std::vector<const Row*> rows = pareto_front(study, scene.name);
-        std::reverse(rows.begin(), rows.end());
-        const auto coarse = [&](const Row* row) { return row != best && row->ray_ns_bound == Bound::upper; };
-        rows.erase(std::remove_if(rows.begin(), rows.end(), coarse), rows.end());
-        const auto add = [&](const Row* row) {
-            if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
-        };
-        std::vector<const Row*> bests;
-        for (const std::string& method : methods_on(study, scene.name)) {
-            bests.push_back(best_row(study, scene.name, method));
-            add(bests.back());
-        }
-        for (const Row& row : study.rows)
-            if (row.is_default && row.scene == scene.name) add(&row);
-        lines.emplace_back("", Cells());
-        for (const Row* row : rows) {
-            const bool of_method = std::find(bests.begin(), bests.end(), row) != bests.end();
-            lines.emplace_back(row == best ? "★" : of_method ? "☆" : " ", cells(study, *row));
-        }
-    }
-    std::array<std::size_t, 7> widths{};
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-        widths[i] = columns(head[i]);
-        for (const auto& line : lines) widths[i] = std::max(widths[i], columns(line.second[i]));
-    }
-    print_line(out, " ", head, widths);
-    for (const auto& [mark, line] : lines) {
-        if (line[0].empty())
-            fmt::print(out, "\n");
-        else
-            print_line(out, mark, line, widths);
-    }
-    fmt::print(
-        out,
-        "\n★ smallest RMSE, ☆ of its method. Below ★, settings that no other beats in RMSE and time both, as long as\n"
-        "the fewest rays are not more accurate still; then each method's best and its default. All {} settings are in\n"
-        "study.csv.\n",
-        study.rows.size());
 }
 
 }  // namespace penumbra::study
