@@ -31,10 +31,12 @@ struct usampler2DArray {
 
 struct sampler2D {
     const penumbra::Image<vec4>* texture;
+    std::size_t* reads = nullptr;  ///< counts them, if it is there
 };
 
 inline vec4 texelFetch(sampler2D sampler, ivec2 at, int) {
     const auto& texture = *sampler.texture;
+    if (sampler.reads != nullptr) ++*sampler.reads;
     if (at.x < 0 || at.y < 0 || at.x >= texture.width() || at.y >= texture.height())
         throw std::out_of_range("texelFetch beyond the texture");
     return texture(at.x, at.y);

@@ -224,7 +224,7 @@ TEST_CASE("lookups and queries in WebGL2") {
         visibility("visibility_n_buffer", SliceFilter::n_buffer, 4),
         visibility("visibility_mipmap", SliceFilter::mipmap, 1),
         wedges("wedges_bitmask", test::wedge_scenes()[1], {}),
-        wedges("wedges_rectangles", test::wedge_scenes()[3],
+        wedges("wedges_rectangles", test::wedge_scenes()[4],
                {OverlapRule::rectangles, 32, SilhouetteFrom::light_center}),
     };
     const std::string page = page_after(jobs);

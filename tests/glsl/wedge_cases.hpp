@@ -64,6 +64,15 @@ inline std::vector<Mesh<float>> sheets() {
     return {sheet, placed(torus_mesh<float>(12, 8), random, 0.8F, Vec3<float>(-1, 1, -1)),
             scaled_at(soup<float>(random, 12, 20), 0.7F, {1.0F, 1.0F, -1.0F})};
 }
+/// A large one that covers the light's lower part with its sides out of sight, and small ones before it.
+inline std::vector<Mesh<float>> large_and_small_spheres() {
+    std::vector<Mesh<float>> spheres{scaled_at(icosphere<float>(3), 1.4F, {0.0F, 1.8F, 0.6F})};
+    for (int i = 0; i < 8; ++i)
+        spheres.push_back(scaled_at(
+            icosphere<float>(1), 0.12F,
+            {static_cast<float>(i % 4) * 0.5F - 0.75F, i < 4 ? 0.2F : 3.4F, static_cast<float>(i / 4) * 0.3F - 0.9F}));
+    return spheres;
+}
 inline std::vector<Mesh<float>> casters_at_the_light() {
     return {box_mesh<float>({1.6F, 4.0F, 0.2F}, {0.3F, 1.5F, 0.4F}),
             box_mesh<float>({0.0F, 4.0F, 0.0F}, {0.2F, 0.2F, 0.2F}),  // around its centre
@@ -75,6 +84,7 @@ inline std::vector<WedgeScene> wedge_scenes() {
     return {{"overlapping spheres", overlapping_spheres(), {0.7F, 0.4F}},
             {"standing boxes", standing_boxes(), {0.5F, 0.9F}},
             {"sheets", sheets(), {0.7F, 0.4F}},
+            {"large and small", large_and_small_spheres(), {0.25F, 0.3F}},
             {"casters at the light", casters_at_the_light(), {0.7F, 0.4F}},
             {"a light of no size", standing_boxes(), {0.0F, 0.0F}},
             {"no casters", {}, {0.7F, 0.4F}}};
