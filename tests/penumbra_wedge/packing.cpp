@@ -147,7 +147,9 @@ TEST_CASE_TEMPLATE("packing what was unpacked gives the same words: every limit 
                 CAPTURE(high);
                 CAPTURE(more);
                 const Rect2<T> r = detail::unpack_rect<T>(rect, sizes);
-                const auto most = static_cast<std::uint32_t>(std::floor(area(r) * T(65535)));
+                // what pack_part allows, or one less where that is a matter of rounding (-ffast-math)
+                const T slack = T(1) - T(8) * std::numeric_limits<T>::epsilon();
+                const auto most = static_cast<std::uint32_t>(std::floor(area(r) * T(65535) * slack));
                 if (size == 0 && most == 0) continue;
                 for (const std::uint32_t covered : {1U, most / 2 + 1, most}) {
                     if (covered > most) continue;
