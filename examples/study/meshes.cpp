@@ -123,7 +123,8 @@ Mesh<float> make_prism(const Vec& center, float radius, float half_height, std::
                        float dome) {
     // ring i of a cap has 6 i vertices, so n rings make about 6 n² triangles
     const int rings = std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 12.0))));
-    const float inside = radius * std::cos(pi<float> / static_cast<float>(rim));  // of the rim's polygon
+    // so far inside the rim's polygon that no triangle between the last ring and the rim folds over
+    const float inside = radius * std::cos(2.0F * pi<float> / static_cast<float>(rim));
     std::vector<Ring> profile;
     for (int i = 1; i < rings; ++i) {
         const float at = static_cast<float>(i) / static_cast<float>(rings);

@@ -120,17 +120,21 @@ struct CentroidBlend {
     T area() const { return all.area; }
 };
 
-/// Fills in what all casters together block of the light from each point of a tile, in [0, 1].
+/// Fills in what all casters together block of the light from each point of a tile, in [0, 1]. May give up as
+/// WedgeIndex::visit does; returns whether it did not.
 template <class T>
-void blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraWedgeOptions& options, T* occlusion) {
+bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraWedgeOptions& options, bool may_give_up,
+           T* occlusion) {
     const auto by_areas = [&](const auto& boxes, Combination rule) {
         AreaBlender<T, std::tuple_size<std::decay_t<decltype(boxes)>>::value> blender(tile, boxes);
-        index.visit(tile, blender);
-        blender.result(rule, occlusion);
+        const bool all = index.visit(tile, blender, may_give_up);
+        if (all) blender.result(rule, occlusion);
+        return all;
     };
     const auto by_rectangles = [&](auto&& blender) {
-        index.visit(tile, blender);
-        blender.result(occlusion);
+        const bool all = index.visit(tile, blender, may_give_up);
+        if (all) blender.result(occlusion);
+        return all;
     };
     const std::array<Rect2<T>, 1> whole = {{tile.light}};
     switch (options.overlap) {
@@ -151,7 +155,7 @@ void blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraW
         case OverlapRule::bitmask:
             break;
     }
-    blend_by_masks(index, tile, options.bitmask_size, occlusion);
+    return blend_by_masks(index, tile, options.bitmask_size, may_give_up, occlusion);
 }
 
 }  // namespace penumbra::detail

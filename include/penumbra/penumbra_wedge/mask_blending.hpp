@@ -217,11 +217,12 @@ class MaskBlender {
     std::array<MaskedOcclusion<T>, PointTile<T>::capacity> all_{};
 };
 
-/// Masks only for points at which they can tell anything: where pieces may overlap, by more than half a cell.
+/// Masks only for points at which they can tell anything: where pieces may overlap, by more than half a cell. May give
+/// up as WedgeIndex::visit does; returns whether it did not.
 template <class T>
-void blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, int size, T* occlusion) {
+bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, int size, bool may_give_up, T* occlusion) {
     IntervalBlender<T> intervals(tile);
-    index.visit(tile, intervals);
+    if (!index.visit(tile, intervals, may_give_up)) return false;
     const T half_a_cell = T(0.5) / static_cast<T>(size * size);
     PointTile<T> open;
     std::array<std::size_t, PointTile<T>::capacity> from;
@@ -233,13 +234,14 @@ void blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, int si
         from[open.count] = i;
         open.push(tile[i]);
     }
-    if (open.count == 0) return;
+    if (open.count == 0) return true;
     open.finish(tile.light.max);
     MaskBlender<T> masks(open, size);
     index.visit(open, masks);
     std::array<T, PointTile<T>::capacity> masked;
     masks.result(masked.data());
     for (std::size_t i = 0; i < open.count; ++i) occlusion[from[i]] = masked[i];
+    return true;
 }
 
 }  // namespace penumbra::detail

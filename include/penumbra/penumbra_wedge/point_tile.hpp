@@ -68,14 +68,33 @@ struct AskedPoint {
     std::size_t index;
 };
 
+template <class T>
+Box3<T> box_of(const AskedPoint<T>* points, std::size_t count) {
+    Box3<T> box = empty_box<T>();
+    for (std::size_t i = 0; i < count; ++i) box = extend(box, points[i].point_ls);
+    return box;
+}
+
+/// Brings the points on one side of the middle of their longest extent, half of them, to the front. Returns how many.
+template <class T>
+std::size_t halve(AskedPoint<T>* points, std::size_t count) {
+    const Box3<T> box = box_of(points, count);
+    const Vec3<T> size = box.max - box.min;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t half = count / 2;
+    std::nth_element(points, points + half, points + count, [&](const AskedPoint<T>& a, const AskedPoint<T>& b) {
+        return a.point_ls[axis] < b.point_ls[axis];
+    });
+    return half;
+}
+
 /// Calls shade(first, count) for groups of the points, which it reorders: split where there is a wide gap between them,
 /// since a tile over two surfaces, or two places of a picture, would see what lies before either and between.
 template <class T, class Shade>
 void split_at_gaps(AskedPoint<T>* points, std::size_t count, Shade&& shade) {
     constexpr int bins = 16;
     constexpr std::size_t least = 8;  // of lanes, which a tile has anyway
-    Box3<T> box = empty_box<T>();
-    for (std::size_t i = 0; i < count; ++i) box = extend(box, points[i].point_ls);
+    const Box3<T> box = box_of(points, count);
     const Vec3<T> size = box.max - box.min;
     const T wide = T(0.25) * std::max({size.x, size.y, size.z});
     int widest = 1, axis = 0;

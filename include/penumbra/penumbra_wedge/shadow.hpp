@@ -71,8 +71,7 @@ class PenumbraWedgeShadow {
         std::array<detail::AskedPoint<T>, PointTile<T>::capacity> asked;
         std::size_t n = 0;
         const auto shade_all = [&] {
-            detail::split_at_gaps(asked.data(), n,
-                                  [&](const auto* first, std::size_t size) { shade(first, size, result); });
+            detail::split_at_gaps(asked.data(), n, [&](auto* first, std::size_t size) { shade(first, size, result); });
             n = 0;
         };
         for (std::size_t i = 0; i < count; ++i) {
@@ -97,12 +96,17 @@ class PenumbraWedgeShadow {
     std::size_t bytes() const { return index_.bytes(); }
 
   private:
-    void shade(const detail::AskedPoint<T>* points, std::size_t count, T* result) const {
+    /// Reorders the points.
+    void shade(detail::AskedPoint<T>* points, std::size_t count, T* result) const {
         PointTile<T> tile;
         for (std::size_t i = 0; i < count; ++i) tile.push(points[i].point_ls);
         tile.finish(half_size_);
         std::array<T, PointTile<T>::capacity> occlusion;
-        detail::blend(index_, tile, options_, occlusion.data());
+        if (!detail::blend(index_, tile, options_, count > 1, occlusion.data())) {
+            const std::size_t half = detail::halve(points, count);
+            shade(points, half, result);
+            return shade(points + half, count - half, result);
+        }
         for (std::size_t i = 0; i < count; ++i) result[points[i].index] = T(1) - occlusion[i];
     }
 

@@ -47,8 +47,11 @@ class WedgeIndex {
     /// where simple pieces cover no part of the light twice; edges(const TileEdge<T>&) for edges, and edge(lane, from,
     /// to, coefficient) for those of faces that are cut one by one; then end_piece() and end_mesh(). The sum of
     /// coefficient · edge_coverage over a piece is what it blocks of tile.light, winding counted.
+    /// If it may, gives up, with false and a part of all that handed out, where most of the work is on faces that only
+    /// few of the tile's points see otherwise than the rest: a mesh so fine asks for smaller tiles.
     template <class Visitor>
-    void visit(const PointTile<T>& tile, Visitor& visitor) const {
+    bool visit(const PointTile<T>& tile, Visitor& visitor, bool may_give_up = false) const {
+        Work work;
         const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
         std::uint32_t mesh_end = 0, piece_end = 0;  // of those that are open, else 0
         const auto leave = [&](std::uint32_t at) {
@@ -65,15 +68,26 @@ class WedgeIndex {
             }
             if (node.mesh_root) visitor.begin_mesh(), mesh_end = node.skip;
             if (node.piece_root) visitor.begin_piece(node.box, node.simple), piece_end = node.skip;
-            if (node.edge_count > 0) visit_leaf(tile, node, visitor);
+            if (node.edge_count > 0) visit_leaf(tile, node, visitor, work);
+            if (may_give_up && work.is_wasted(tile)) return false;
             ++at;
         }
         leave(end);
+        return true;
     }
 
   private:
     using Node = detail::WedgeNode<T>;
     using Face = detail::WedgeFace<T>;
+
+    /// Of a visit: faces that a tile's points do not all see alike, and edges and cut faces times the points that they
+    /// count for.
+    struct Work {
+        std::size_t uneven = 0, used = 0;
+        bool is_wasted(const PointTile<T>& tile) const {
+            return uneven > 96 && used * 20 < uneven * tile.count && tile.count > 1;
+        }
+    };
 
     /// The coefficients of a leaf's faces: one for all lanes, or one for each.
     struct Coefficients {
@@ -110,7 +124,7 @@ class WedgeIndex {
     bool has_no_silhouette(const PointTile<T>& tile, const Node& node) const {
         int least = node.least, most = node.most;
         if (from_ == SilhouetteFrom::light_center) {
-            if (least != most || touches(tile, node.box)) return false;
+            if (least != most || (least != 0 && touches(tile, node.box))) return false;
         } else {
             const Vec3<T> middle = (node.box.min + node.box.max) * T(0.5), way = tile.center - middle;
             const Vec3<T> a = way * node.normal_min, b = way * node.normal_max;
@@ -130,20 +144,22 @@ class WedgeIndex {
     }
 
     template <class Visitor>
-    void visit_leaf(const PointTile<T>& tile, const Node& node, Visitor& visitor) const {
+    void visit_leaf(const PointTile<T>& tile, const Node& node, Visitor& visitor, Work& work) const {
         Coefficients coefficients;
         coefficients.uniform[0] = coefficients.uniform[1] = true;
         coefficients.value[0] = T(0), coefficients.value[1] = T(-1);
         for (std::size_t f = 0; f < node.face_count; ++f) {
             const Face& face = tree_.faces[node.first_face + f];
             find_coefficients(tile, face, coefficients, f + 2);
+            work.uneven += coefficients.uniform[f + 2] ? 0 : 1;
             if (f < node.owned_faces && face.depth_max >= tile.box.min.z && face.depth_min < tile.box.max.z)
-                cut_face(tile, face, visitor);
+                work.used += cut_face(tile, face, visitor);
         }
         TileEdge<T> seen;
         for (std::size_t e = 0; e < node.edge_count; ++e) {
             const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
-            if (is_on_silhouette(tile, coefficients, edge.left, edge.right, seen.coefficient)) {
+            if (const std::size_t lanes = count_lanes(tile, coefficients, edge.left, edge.right, seen.coefficient)) {
+                work.used += lanes;
                 see(tile, edge.a, seen.coefficient, seen.ax, seen.ay);
                 see(tile, edge.b, seen.coefficient, seen.bx, seen.by);
                 visitor.edges(seen);
@@ -182,14 +198,14 @@ class WedgeIndex {
     }
     static Box3<T> box_of(const Face& face) { return extend(extend(extend(empty_box<T>(), face.a), face.b), face.c); }
 
-    /// Fills in how often an edge counts; false if it never does.
-    static bool is_on_silhouette(const PointTile<T>& tile, const Coefficients& c, std::size_t left, std::size_t right,
-                                 Values& coefficient) {
+    /// Fills in how often an edge counts. In how many lanes it does.
+    static std::size_t count_lanes(const PointTile<T>& tile, const Coefficients& c, std::size_t left, std::size_t right,
+                                   Values& coefficient) {
         if (c.uniform[left] && c.uniform[right]) {
             const T value = c.value[left] - c.value[right];
-            if (value == T(0)) return false;
+            if (value == T(0)) return 0;
             for (std::size_t i = 0; i < tile.lanes; ++i) coefficient[i] = value;
-            return true;
+            return tile.lanes;
         }
         if (c.uniform[left] || c.uniform[right]) {
             const Values& lanes = c.uniform[left] ? c.lanes[right] : c.lanes[left];
@@ -198,9 +214,9 @@ class WedgeIndex {
         } else {
             for (std::size_t i = 0; i < tile.lanes; ++i) coefficient[i] = c.lanes[left][i] - c.lanes[right][i];
         }
-        int any = 0;
-        for (std::size_t i = 0; i < tile.lanes; ++i) any |= static_cast<int>(coefficient[i] != T(0));
-        return any != 0;
+        int used = 0;
+        for (std::size_t i = 0; i < tile.lanes; ++i) used += static_cast<int>(coefficient[i] != T(0));
+        return static_cast<std::size_t>(used);
     }
 
     /// Where a vertex lands; anywhere finite in lanes where the edge does not count.
@@ -215,19 +231,23 @@ class WedgeIndex {
         }
     }
 
+    /// For how many points it does.
     template <class Visitor>
-    void cut_face(const PointTile<T>& tile, const Face& face, Visitor& visitor) const {
+    std::size_t cut_face(const PointTile<T>& tile, const Face& face, Visitor& visitor) const {
         const Vec3<T> loop[3] = {face.a, face.b, face.c};
         const bool one_side = from_ == SilhouetteFrom::light_center && !touches(tile, box_of(face));
+        std::size_t used = 0;
         for (std::size_t i = 0; i < tile.count; ++i) {
             const Vec3<T> point = tile[i];
             if (!(face.depth_max >= point.z && face.depth_min < point.z)) continue;
             const T value = one_side ? static_cast<T>(face.from_light)
                                      : coefficient_of(face, glm::dot(face.normal, point - face.a));
             if (value == T(0) || is_beside(loop, point, tile.light.max)) continue;
+            ++used;
             project_loop(loop, 3, point, tile.light,
                          [&](const Vec2<T>& from, const Vec2<T>& to) { visitor.edge(i, from, to, value); });
         }
+        return used;
     }
     /// Whether a triangle lies beyond one side of the pyramid.
     static bool is_beside(const Vec3<T> (&loop)[3], const Vec3<T>& point, const Vec2<T>& half) {
