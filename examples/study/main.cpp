@@ -33,21 +33,22 @@ std::string joined(int argc, char** argv) {
 
 struct Arguments {
     std::vector<std::string> scenes, methods;
-    std::string mesh, light = "rectangle", out = "out/study";
+    std::string mesh, light, out = "out/study";
     std::vector<double> sizes = {1.0};
     std::size_t points = 0;
     bool quick = false, scaling = false;
 };
 
 std::vector<Scene> wanted_scenes(const Arguments& arguments) {
-    std::vector<std::string> names = arguments.scenes;
-    if (names.empty() && arguments.mesh.empty() && !arguments.scaling) names = scene_names();
-    std::vector<Scene> scenes;
-    for (const double factor : arguments.sizes) {
-        const auto size = static_cast<float>(factor);
-        for (const std::string& name : names) scenes.push_back(make_scene(name, size));
-        if (!arguments.mesh.empty()) scenes.push_back(load_scene(arguments.mesh, size));
+    const bool all = arguments.scenes.empty() && arguments.mesh.empty() && !arguments.scaling;
+    std::vector<Scene> plain, scenes;
+    for (const std::string& name : all ? scene_names() : arguments.scenes) {
+        plain.push_back(make_scene(name));
+        if (all && !arguments.light.empty() && kind_of(plain.back().light) != arguments.light) plain.pop_back();
     }
+    if (!arguments.mesh.empty()) plain.push_back(load_scene(arguments.mesh));
+    for (const double size : arguments.sizes)
+        for (const Scene& scene : plain) scenes.push_back(under(scene, arguments.light, static_cast<float>(size)));
     return scenes;
 }
 
@@ -98,9 +99,9 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(scene_names()));
     app.add_option("--mesh", arguments.mesh, "a mesh file (anything assimp reads), stood above the ground")
         ->check(CLI::ExistingFile);
-    app.add_option("--light", arguments.light, "kind of light")
-        ->check(CLI::IsMember({"rectangle"}))
-        ->capture_default_str();
+    app.add_option("--light", arguments.light,
+                   "kind of light, of the same area, for the scenes that are named; else which scenes are measured")
+        ->check(CLI::IsMember(light_kinds()));
     app.add_option("--size", arguments.sizes, "factor on the light's size; again for more")
         ->check(CLI::Range(0.0, 1e3))
         ->capture_default_str();

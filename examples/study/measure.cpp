@@ -52,7 +52,7 @@ Measured look_at(const Scene& scene, const Effort& effort) {
     info.name = scene.name;
     info.about = scene.about;
     info.triangles = scene.triangle_count();
-    info.light = scene.light_text();
+    info.light = text_of(scene.light);
     info.points = at.size();
     info.overlap_points = static_cast<std::size_t>(std::count(measured.overlap.begin(), measured.overlap.end(), true));
     // of two independent estimates' difference, half the variance is either's

@@ -26,11 +26,17 @@ const char* name_of(Sampler sampler) {
     return "sobol";
 }
 
+/// What of the light `count` points see, on this thread.
+void trace(const reference::Scene& traced, const Light& light, const Vec3<float>* points, std::size_t count,
+           const SampleOptions& options, float* result) {
+    std::visit([&](const auto& it) { traced.visibility(points, count, it, options, result); }, light);
+}
+
 std::vector<float> trace(const reference::Scene& traced, const Scene& scene, const Points& points,
                          const SampleOptions& options) {
     std::vector<float> result(points.size());
     in_parallel(points.size(), [&](std::size_t first, std::size_t count) {
-        traced.visibility(points.data() + first, count, scene.light, options, result.data() + first);
+        trace(traced, scene.light, points.data() + first, count, options, result.data() + first);
     });
     return result;
 }
@@ -59,7 +65,7 @@ double measure(const RayTarget& target, const Way& way, int rays, std::vector<Ra
     rows.push_back(row);
     timings.emplace_back(target.timed.size(), [=, &traced = target.traced, &light = target.scene.light,
                                                &timed = target.timed, &result = target.result](std::size_t count) {
-        traced.visibility(timed.data(), count, light, options, result.data());
+        trace(traced, light, timed.data(), count, options, result.data());
     });
     timings.back().first();
     return timings.back().ns_per_point() * row.rmse * row.rmse;

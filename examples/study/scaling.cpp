@@ -104,7 +104,7 @@ void measure_triangles(const Effort& effort, Study& study) {
         for (const float dome : {0.0F, 0.1F}) {
             stages.push_back(std::make_unique<Stage>());
             Stage& stage = *stages.back();
-            stage.scene = make_scene("slab", 1.0F);
+            stage.scene = make_scene("slab");
             stage.scene.name = figure;
             stage.scene.casters = {make_prism(Vec3<float>(0.0F, 2.0F, 0.0F), 1.5F, 0.35F, 48, triangles, dome)};
             stage.x = static_cast<double>(stage.scene.triangle_count());

@@ -16,8 +16,8 @@ using Vec = Vec3<float>;
 
 constexpr const char* bunny_file = "/usr/share/glmark2/models/bunny.obj";
 
-RectLight<float> light_above(const Vec& center, float half_size) {
-    return {center, Vec(half_size, 0.0F, 0.0F), Vec(0.0F, 0.0F, half_size)};  // emits along −y
+Light light_above(const Vec& center, float half_size) {
+    return RectLight<float>{center, Vec(half_size, 0.0F, 0.0F), Vec(0.0F, 0.0F, half_size)};  // emits along −y
 }
 
 void add_ground(Scene& scene) {
@@ -109,7 +109,7 @@ Scene boxes() {
 }
 
 Scene bunny() {
-    Scene scene = load_scene(bunny_file, 1.0F);
+    Scene scene = load_scene(bunny_file);
     scene.about = fmt::format("The Stanford bunny, {} triangles.", scene.triangle_count());
     return scene;
 }
@@ -198,12 +198,6 @@ constexpr Named built_in[] = {{"spheres", spheres},
                               {"comb", comb},
                               {"fan", fan}};
 
-void scale_light(Scene& scene, float size) {
-    scene.light.half_u *= size;
-    scene.light.half_v *= size;
-    if (size != 1.0F) scene.name += fmt::format(", light × {:g}", size);
-}
-
 }  // namespace
 
 std::size_t Scene::triangle_count() const {
@@ -212,18 +206,13 @@ std::size_t Scene::triangle_count() const {
     return count;
 }
 
-std::string Scene::light_text() const {
-    return fmt::format("rectangle {:.3g} × {:.3g}, {:.3g} above the ground", 2.0F * glm::length(light.half_u),
-                       2.0F * glm::length(light.half_v), light.center.y);
-}
-
 std::vector<std::string> scene_names() {
     std::vector<std::string> names;
     for (const Named& scene : built_in) names.emplace_back(scene.name);
     return names;
 }
 
-Scene load_scene(const std::string& file, float light_size) {
+Scene load_scene(const std::string& file) {
     Mesh<float> mesh = import_mesh(file);
     const Box3<float> box = bounds(mesh);
     const Vec size = box.max - box.min;
@@ -239,7 +228,18 @@ Scene load_scene(const std::string& file, float light_size) {
     scene.light = light_above(Vec(1.5F, 7.0F, 1.5F), 0.8F);
     scene.camera = {Vec(2.5F, 4.5F, 9.0F), Vec(-0.2F, 1.1F, 0.0F), 0.33F};
     add_ground(scene);
-    scale_light(scene, light_size);
+    return scene;
+}
+
+Scene under(Scene scene, const std::string& kind, float size) {
+    if (!kind.empty() && kind != kind_of(scene.light)) {
+        scene.light = as_kind(scene.light, kind);
+        scene.name += ", " + kind;
+    }
+    if (size != 1.0F) {
+        scene.light = scaled(scene.light, size);
+        scene.name += fmt::format(", light × {:g}", size);
+    }
     return scene;
 }
 
@@ -249,20 +249,19 @@ Scene low_spheres(int side) {
     scene.subject = Subject::overlap;
     scene.casters = sphere_layer(side);
     const Vec at(0.0F, 7.5F, -12.0F), down = glm::normalize(Vec(0.0F, 0.0F, 2.5F) - at), right(1.0F, 0.0F, 0.0F);
-    scene.light = {at, right * 1.5F, glm::cross(down, right) * 1.5F};
+    scene.light = RectLight<float>{at, right * 1.5F, glm::cross(down, right) * 1.5F};
     scene.camera = {Vec(0.0F, 5.5F, 13.0F), Vec(0.0F, 0.2F, 3.6F), 0.42F};
     add_ground(scene);
     return scene;
 }
 
-Scene make_scene(const std::string& name, float light_size) {
+Scene make_scene(const std::string& name) {
     for (const Named& named : built_in) {
         if (name != named.name) continue;
         Scene scene = named.make();
         scene.name = name;
         scene.ground = {};
         add_ground(scene);
-        scale_light(scene, light_size);
         return scene;
     }
     throw std::runtime_error(fmt::format("there is no scene '{}'", name));

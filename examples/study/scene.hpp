@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
 #include <string>
 #include <vector>
+
+#include "light.hpp"
 
 namespace penumbra::study {
 
@@ -28,24 +29,26 @@ struct Scene {
     std::string about;  ///< one sentence for the report
     std::vector<Mesh<float>> casters;
     Mesh<float> ground;
-    RectLight<float> light;
+    Light light;
     Camera camera;
     Subject subject = Subject::methods;
 
     std::size_t triangle_count() const;
-    std::string light_text() const;  ///< "rectangle 4 × 4, 9 above the ground"
 };
 
 /// The built-in scenes, in the order of the report.
 std::vector<std::string> scene_names();
 
-/// A built-in scene by name, its light's sides multiplied by `light_size`; a size other than 1 goes into its name.
-/// Throws std::runtime_error with a message for the user if there is none of that name or if the bunny's package is
-/// missing.
-Scene make_scene(const std::string& name, float light_size);
+/// A built-in scene by name. Throws std::runtime_error with a message for the user if there is none of that name or if
+/// the bunny's package is missing.
+Scene make_scene(const std::string& name);
 
 /// Any mesh file that assimp reads, scaled and stood on the ground under a light that fits it.
-Scene load_scene(const std::string& file, float light_size);
+Scene load_scene(const std::string& file);
+
+/// The scene under a light of `kind` with the same area, its own if none is given, scaled by `size`. What is not the
+/// scene's own goes into its name.
+Scene under(Scene scene, const std::string& kind, float size);
 
 /// The scene `spheres-low`, with `side` × `side` spheres.
 Scene low_spheres(int side);

@@ -51,7 +51,7 @@ std::vector<Setting> settings_for(const Scene& scene, const std::vector<std::str
         if (!wanted.empty() && !named) continue;
         const Sweep most = named ? Sweep::all : default_sweep(method.name, scene.subject);
         for (Setting& setting : settings_of(method.name, quick ? std::min(most, Sweep::few) : most))
-            all.push_back(std::move(setting));
+            if (setting.takes(scene.light)) all.push_back(std::move(setting));
     }
     return all;
 }

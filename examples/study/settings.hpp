@@ -28,15 +28,17 @@ struct Setting {
     std::string method;
     nlohmann::ordered_json knobs;
     bool is_default = false;
-    std::function<Built(const Scene&)> build;
+    bool (*takes)(const Light&);               ///< is the method for such a light?
+    std::function<Built(const Scene&)> build;  ///< for a scene whose light it takes
 };
 
-/// The setting of `Shadow` with the given options.
-template <class Shadow>
+/// The setting of `Shadow`, which is for lights of kind `For`, with the given options.
+template <class Shadow, class For>
 Setting make_setting(const std::string& method, const nlohmann::ordered_json& knobs, bool is_default,
                      const typename Shadow::Options& options) {
-    return {method, knobs, is_default, [options](const Scene& scene) {
-                const auto shadow = std::make_shared<const Shadow>(scene.casters, scene.light, options);
+    return {method, knobs, is_default, [](const Light& light) { return std::holds_alternative<For>(light); },
+            [options](const Scene& scene) {
+                const auto shadow = std::make_shared<const Shadow>(scene.casters, std::get<For>(scene.light), options);
                 return Built{[shadow](const Vec3<float>* points, std::size_t count, float* result) {
                                  shadow->visibility(points, count, result);
                              },
@@ -53,8 +55,8 @@ std::vector<std::string> method_names();
 /// Settings of a method, the default first.
 std::vector<Setting> settings_of(const std::string& method, Sweep sweep);
 
-/// Settings of the methods that are wanted, of all if none is named. Methods that are not named get few settings on
-/// scenes that are there to compare something else.
+/// Settings of the methods that are wanted, of all if none is named, and that are for the scene's light. Methods that
+/// are not named get few settings on scenes that are there to compare something else.
 std::vector<Setting> settings_for(const Scene& scene, const std::vector<std::string>& wanted, bool quick);
 
 /// OcclusionTextureShadow: slices, rules, filters and the rest, swept around the default.

@@ -31,6 +31,8 @@ View look(const Scene& scene, int width, int height) {
     const Vec3<float> right = glm::normalize(glm::cross(forward, Vec3<float>(0.0F, 1.0F, 0.0F)));
     const Vec3<float> up = glm::cross(right, forward);
 
+    const Vec3<float> light = center_of(scene.light);
+
     View view;
     view.width = width;
     view.height = height;
@@ -46,7 +48,7 @@ View look(const Scene& scene, int width, int height) {
         view.hit[i] = true;
         const Vec3<float>& point = hit->point;
         const Vec3<float> normal = glm::dot(hit->normal, direction) < 0.0F ? hit->normal : -hit->normal;
-        const float cosine = glm::dot(normal, glm::normalize(scene.light.center - point));
+        const float cosine = glm::dot(normal, glm::normalize(light - point));
         if (!(cosine > 0.0F)) continue;
         view.points.push_back(point);
         view.pixel.push_back(i);

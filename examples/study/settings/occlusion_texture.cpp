@@ -79,8 +79,8 @@ class Settings {
         const nlohmann::ordered_json knobs = knobs_of(options);
         for (const Setting& setting : settings)
             if (setting.knobs == knobs) return;
-        settings.push_back(make_setting<OcclusionTextureShadow<float>>("occlusion_texture", knobs,
-                                                                       knobs == knobs_of(Options()), options));
+        settings.push_back(make_setting<OcclusionTextureShadow<float>, RectLight<float>>(
+            "occlusion_texture", knobs, knobs == knobs_of(Options()), options));
     }
     template <class Change>
     void add(Options options, Change&& change) {

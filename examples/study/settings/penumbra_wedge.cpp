@@ -37,7 +37,8 @@ Setting setting(const Options& options) {
             {"silhouette", o.silhouette == SilhouetteFrom::point ? "per_point" : "from_light_center"}};
     };
     const nlohmann::ordered_json knobs = knobs_of(options);
-    return make_setting<PenumbraWedgeShadow<float>>("penumbra_wedge", knobs, knobs == knobs_of(Options()), options);
+    return make_setting<PenumbraWedgeShadow<float>, RectLight<float>>("penumbra_wedge", knobs,
+                                                                      knobs == knobs_of(Options()), options);
 }
 
 Setting setting(OverlapRule rule, SilhouetteFrom from, int bitmask_size = 32) {
