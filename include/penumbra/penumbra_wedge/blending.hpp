@@ -20,12 +20,17 @@ template <class T>
 std::array<Rect2<T>, 4> quadrants(const Rect2<T>& light) {
     return {{quadrant(light, 0), quadrant(light, 1), quadrant(light, 2), quadrant(light, 3)}};
 }
+template <class T>
+std::array<RectShape<T>, 4> quadrant_shapes(const Rect2<T>& light) {
+    const std::array<Rect2<T>, 4> q = quadrants(light);
+    return {{{q[0]}, {q[1]}, {q[2]}, {q[3]}}};
+}
 
-/// The rules that need only what each mesh blocks: of the whole light, or of each quadrant.
-template <class T, std::size_t Boxes>
+/// The rules that need only what each mesh blocks: of the whole light, or of each of its parts, which are of one size.
+template <class T, class Shape, std::size_t Parts>
 class AreaBlender {
   public:
-    AreaBlender(const PointTile<T>& tile, const std::array<Rect2<T>, Boxes>& boxes) : sums_{tile, boxes, {}} {}
+    AreaBlender(const PointTile<T>& tile, const std::array<Shape, Parts>& parts) : sums_{tile, parts, {}} {}
 
     void begin_mesh() { sums_.clear(); }
     void begin_piece(const Box3<T>&, bool) {}
@@ -33,23 +38,23 @@ class AreaBlender {
     void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T c) { sums_.edge(lane, from, to, c); }
     void end_piece() {}
     void end_mesh() {
-        for (std::size_t b = 0; b < Boxes; ++b) {
-            const T unit = T(1) / area(sums_.boxes[b]);
+        for (std::size_t p = 0; p < Parts; ++p) {
+            const T unit = T(1) / sums_.shapes[p].area();
             for (std::size_t i = 0; i < sums_.tile.count; ++i)
-                all_[b][i].add(saturate(settle(sums_.areas[b][i] * unit)));
+                all_[p][i].add(saturate(settle(sums_.areas[p][i] * unit)));
         }
     }
     void result(Combination rule, T* occlusion) const {
         for (std::size_t i = 0; i < sums_.tile.count; ++i) {
             T sum = T(0);
-            for (std::size_t b = 0; b < Boxes; ++b) sum += all_[b][i].result(rule);
-            occlusion[i] = sum / static_cast<T>(Boxes);
+            for (std::size_t p = 0; p < Parts; ++p) sum += all_[p][i].result(rule);
+            occlusion[i] = sum / static_cast<T>(Parts);
         }
     }
 
   private:
-    AreaSums<T, Boxes> sums_;
-    std::array<std::array<OcclusionAccumulator<T>, PointTile<T>::capacity>, Boxes> all_{};
+    AreaSums<T, Shape, Parts> sums_;
+    std::array<std::array<OcclusionAccumulator<T>, PointTile<T>::capacity>, Parts> all_{};
 };
 
 template <class Value, std::size_t... I>
@@ -125,8 +130,8 @@ struct CentroidBlend {
 template <class T>
 bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraWedgeOptions& options, bool may_give_up,
            T* occlusion) {
-    const auto by_areas = [&](const auto& boxes, Combination rule) {
-        AreaBlender<T, std::tuple_size<std::decay_t<decltype(boxes)>>::value> blender(tile, boxes);
+    const auto by_areas = [&](const auto& parts, Combination rule) {
+        AreaBlender<T, RectShape<T>, std::tuple_size<std::decay_t<decltype(parts)>>::value> blender(tile, parts);
         const bool all = index.visit(tile, blender, may_give_up);
         if (all) blender.result(rule, occlusion);
         return all;
@@ -136,7 +141,8 @@ bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraW
         if (all) blender.result(occlusion);
         return all;
     };
-    const std::array<Rect2<T>, 1> whole = {{tile.light}};
+    const RectShape<T> light{tile.light};
+    const std::array<RectShape<T>, 1> whole = {{light}};
     switch (options.overlap) {
         case OverlapRule::additive:
             return by_areas(whole, Combination::sum);
@@ -145,7 +151,7 @@ bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraW
         case OverlapRule::product:
             return by_areas(whole, Combination::product);
         case OverlapRule::product_quadrants:
-            return by_areas(quadrants(tile.light), Combination::product);
+            return by_areas(quadrant_shapes(tile.light), Combination::product);
         case OverlapRule::rectangles:
             return by_rectangles(RectangleBlender<T, SequentialBlend<T>>(tile));
         case OverlapRule::rectangles_centroid:
@@ -155,7 +161,7 @@ bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraW
         case OverlapRule::bitmask:
             break;
     }
-    return blend_by_masks(index, tile, options.bitmask_size, may_give_up, occlusion);
+    return blend_by_masks(index, tile, light, options.bitmask_size, may_give_up, occlusion);
 }
 
 }  // namespace penumbra::detail

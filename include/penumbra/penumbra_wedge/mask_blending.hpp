@@ -14,11 +14,11 @@
 namespace penumbra::detail {
 
 /// The interval in which the truth lies for each lane, from the exact area of each piece and from a rectangle around
-/// it: two pieces overlap by no more than their rectangles do.
-template <class T>
+/// it: two pieces overlap by no more than their rectangles do. On lights of any shape, see RectShape.
+template <class T, class Shape>
 class IntervalBlender {
   public:
-    explicit IntervalBlender(const PointTile<T>& tile) : sums_{tile, {{tile.light}}, {}} {}
+    IntervalBlender(const PointTile<T>& tile, const Shape& shape) : sums_{tile, {{shape}}, {}} {}
 
     void begin_mesh() {}
     void begin_piece(const Box3<T>& box, bool simple) {
@@ -46,7 +46,7 @@ class IntervalBlender {
     void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T c) { sums_.edge(lane, from, to, c); }
     void end_piece() {
         const std::size_t lanes = sums_.tile.lanes;
-        const T unit = T(1) / area(sums_.boxes[0]);
+        const T unit = T(1) / sums_.shapes[0].area();
         Kept& piece = *piece_;
         T any = T(0);
         for (std::size_t i = 0; i < lanes; ++i) {
@@ -106,7 +106,7 @@ class IntervalBlender {
         }
     }
 
-    AreaSums<T, 1> sums_;
+    AreaSums<T, Shape, 1> sums_;
     std::array<Kept, most> pieces_;
     std::size_t kept_ = 0;
     Kept* piece_ = nullptr;
@@ -115,10 +115,10 @@ class IntervalBlender {
 };
 
 /// Exact areas and masks, piece by piece.
-template <class T>
+template <class T, class Shape>
 class MaskBlender {
   public:
-    MaskBlender(const PointTile<T>& tile, int size) : sums_{tile, {{tile.light}}, {}}, size_(size) {
+    MaskBlender(const PointTile<T>& tile, const Shape& shape, int size) : sums_{tile, {{shape}}, {}}, size_(size) {
         for (std::size_t j = 0; j < static_cast<std::size_t>(size); ++j) united_[j].fill(0U), clear(j);
     }
 
@@ -128,6 +128,7 @@ class MaskBlender {
     void edges(const TileEdge<T>& e) {
         const PointTile<T>& tile = sums_.tile;
         const Rect2<T> light = tile.light;
+        const Shape shape = sums_.shapes[0];
         typename PointTile<T>::Values x0, y0, x1, y1, sign, left, right, y, slope;
         std::array<int, PointTile<T>::capacity> first, end;
         for (std::size_t i = 0; i < tile.lanes; ++i) {
@@ -135,8 +136,8 @@ class MaskBlender {
             x0[i] = edge.x0, y0[i] = edge.y0, x1[i] = edge.x1, y1[i] = edge.y1, sign[i] = edge.sign;
         }
         for (std::size_t i = 0; i < tile.lanes; ++i)
-            sums_.areas[0][i] +=
-                e.coefficient[i] * covered_below(ColumnEdge<T>{x0[i], y0[i], x1[i], y1[i], sign[i]}, light);
+            sums_.areas[0][i] += e.coefficient[i] * shape.coverage(ColumnEdge<T>{x0[i], y0[i], x1[i], y1[i], sign[i]},
+                                                                   e.ax[i], e.ay[i], e.bx[i], e.by[i]);
         for (std::size_t i = 0; i < tile.lanes; ++i) {
             const ColumnLine<T> line = column_line(ColumnEdge<T>{x0[i], y0[i], x1[i], y1[i], sign[i]});
             left[i] = line.left_x, right[i] = line.right_x, y[i] = line.left_y, slope[i] = line.slope;
@@ -160,13 +161,16 @@ class MaskBlender {
     }
     void end_piece() {
         const std::size_t lanes = sums_.tile.lanes;
+        const Shape& shape = sums_.shapes[0];
         std::array<int, PointTile<T>::capacity> wound, sum, fresh;
         for (auto* counts : {&wound, &sum, &fresh}) std::fill_n(counts->begin(), lanes, 0);
         for (int j = first_; j <= last_; ++j) {
             const Column& c = columns_[static_cast<std::size_t>(j)];
+            const std::uint32_t light = shape.cells(j, size_);
             Words& united = united_[static_cast<std::size_t>(j)];
             for (std::size_t i = 0; i < lanes; ++i) {
-                const WindingColumn winding{c.ones[i], c.twos[i], c.fours[i], c.eights[i]};
+                const WindingColumn winding{c.ones[i] & light, c.twos[i] & light, c.fours[i] & light,
+                                            c.eights[i] & light};
                 const std::uint32_t cells = wound_cells(winding);
                 fresh[i] += count_bits(cells & ~united[i]);
                 united[i] |= cells;
@@ -175,9 +179,9 @@ class MaskBlender {
             }
             clear(static_cast<std::size_t>(j));
         }
-        const T unit = T(1) / area(sums_.tile.light);
+        const T unit = T(1) / shape.area();
         for (std::size_t i = 0; i < sums_.tile.count; ++i)
-            all_[i].add(settle(sums_.areas[0][i] * unit), wound[i], sum[i], fresh[i], size_ * size_);
+            all_[i].add(settle(sums_.areas[0][i] * unit), wound[i], sum[i], fresh[i], shape.cell_count(size_));
     }
     void end_mesh() {}
     void result(T* occlusion) const {
@@ -210,7 +214,7 @@ class MaskBlender {
         }
     }
 
-    AreaSums<T, 1> sums_;
+    AreaSums<T, Shape, 1> sums_;
     int size_, first_ = 0, last_ = -1;
     std::array<Column, most> columns_;
     std::array<Words, most> united_;
@@ -219,11 +223,12 @@ class MaskBlender {
 
 /// Masks only for points at which they can tell anything: where pieces may overlap, by more than half a cell. May give
 /// up as WedgeIndex::visit does; returns whether it did not.
-template <class T>
-bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, int size, bool may_give_up, T* occlusion) {
-    IntervalBlender<T> intervals(tile);
+template <class T, class Shape>
+bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, const Shape& shape, int size,
+                    bool may_give_up, T* occlusion) {
+    IntervalBlender<T, Shape> intervals(tile, shape);
     if (!index.visit(tile, intervals, may_give_up)) return false;
-    const T half_a_cell = T(0.5) / static_cast<T>(size * size);
+    const T half_a_cell = T(0.5) / static_cast<T>(shape.cell_count(size));
     PointTile<T> open;
     std::array<std::size_t, PointTile<T>::capacity> from;
     for (std::size_t i = 0; i < tile.count; ++i) {
@@ -236,7 +241,7 @@ bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, int si
     }
     if (open.count == 0) return true;
     open.finish(tile.light.max);
-    MaskBlender<T> masks(open, size);
+    MaskBlender<T, Shape> masks(open, shape, size);
     index.visit(open, masks);
     std::array<T, PointTile<T>::capacity> masked;
     masks.result(masked.data());

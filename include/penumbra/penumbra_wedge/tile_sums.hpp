@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <penumbra/penumbra_wedge/coverage.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
@@ -18,27 +19,43 @@ constexpr T settle(T occlusion) {
     return occlusion * (T(1) + T(2) * slack) - slack;
 }
 
-/// Areas over `Boxes` boxes, one for each lane: what a piece or a mesh blocks of each.
-template <class T, std::size_t Boxes>
+/// A light that fills its box. Lights of other shapes have the same members; tile.light is the box around them.
+template <class T>
+struct RectShape {
+    Rect2<T> box;
+
+    T area() const { return penumbra::area(box); }
+    /// What lies of the light below an edge, signed.
+    T coverage(T ax, T ay, T bx, T by) const { return edge_coverage(ax, ay, bx, by, box); }
+    /// The same where column_edge of the light's box is there already.
+    T coverage(const ColumnEdge<T>& edge, T, T, T, T) const { return covered_below(edge, box); }
+    /// Of a column of a mask of the box, the cells whose middle is on the light; and how many there are in all columns.
+    std::uint32_t cells(int, int) const { return 0xffffffffU; }
+    int cell_count(int size) const { return size * size; }
+};
+
+/// Areas over `Count` shapes, one for each lane: what a piece or a mesh blocks of each.
+template <class T, class Shape, std::size_t Count>
 struct AreaSums {
     using Values = typename PointTile<T>::Values;
     const PointTile<T>& tile;
-    std::array<Rect2<T>, Boxes> boxes;
-    std::array<Values, Boxes> areas;
+    std::array<Shape, Count> shapes;
+    std::array<Values, Count> areas;
 
     void clear() {
         for (Values& area : areas) std::fill_n(area.begin(), tile.lanes, T(0));
     }
     void edges(const TileEdge<T>& e) {
-        for (std::size_t b = 0; b < Boxes; ++b) {
-            const Rect2<T> box = boxes[b];
-            Values& area = areas[b];
+        for (std::size_t s = 0; s < Count; ++s) {
+            const Shape shape = shapes[s];
+            Values& area = areas[s];
             for (std::size_t i = 0; i < tile.lanes; ++i)
-                area[i] += e.coefficient[i] * edge_coverage(e.ax[i], e.ay[i], e.bx[i], e.by[i], box);
+                area[i] += e.coefficient[i] * shape.coverage(e.ax[i], e.ay[i], e.bx[i], e.by[i]);
         }
     }
     void edge(std::size_t lane, const Vec2<T>& from, const Vec2<T>& to, T coefficient) {
-        for (std::size_t b = 0; b < Boxes; ++b) areas[b][lane] += coefficient * edge_coverage(from, to, boxes[b]);
+        for (std::size_t s = 0; s < Count; ++s)
+            areas[s][lane] += coefficient * shapes[s].coverage(from.x, from.y, to.x, to.y);
     }
 };
 
