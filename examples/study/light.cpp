@@ -33,6 +33,21 @@ Rectangle as_other(const Disk& light) {
     return {light.center, frame.u * half, frame.v * half};
 }
 
+std::vector<Vec3<float>> corners(const Rectangle& light) {
+    const Vec3<float> u = light.half_u, v = light.half_v;
+    return {light.center + u + v, light.center - u + v, light.center - u - v, light.center + u - v};
+}
+std::vector<Vec3<float>> corners(const Disk& light) {
+    constexpr int count = 64;
+    const LightFrame<float> frame = light_frame(light);
+    std::vector<Vec3<float>> points;
+    for (int i = 0; i < count; ++i) {
+        const float angle = 2.0F * pi<float> * static_cast<float>(i) / count;
+        points.push_back(light.center + light.radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v));
+    }
+    return points;
+}
+
 }  // namespace
 
 std::vector<std::string> light_kinds() { return {kind_name(Rectangle()), kind_name(Disk())}; }
@@ -52,6 +67,13 @@ std::string text_of(const Light& light) {
 
 Light scaled(const Light& light, float size) {
     return std::visit([&](const auto& it) { return with_size(it, size); }, light);
+}
+
+std::vector<LinearLight<float>> rim(const Light& light) {
+    const std::vector<Vec3<float>> points = std::visit([](const auto& it) { return corners(it); }, light);
+    std::vector<LinearLight<float>> pieces;
+    for (std::size_t i = 0; i < points.size(); ++i) pieces.push_back({points[i], points[(i + 1) % points.size()]});
+    return pieces;
 }
 
 Light as_kind(const Light& light, const std::string& kind) {

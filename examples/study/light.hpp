@@ -22,6 +22,9 @@ std::string text_of(const Light& light);
 /// Sides or radius multiplied by `size`.
 Light scaled(const Light& light, float size);
 
+/// The rim in straight pieces: a disk's in 64, whose ends are on it.
+std::vector<LinearLight<float>> rim(const Light& light);
+
 /// A light of that kind with the same centre, direction and area.
 Light as_kind(const Light& light, const std::string& kind);
 

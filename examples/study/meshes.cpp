@@ -102,8 +102,9 @@ Mesh<float> make_turned(const Vec& center, float top, const std::vector<Ring>& r
     return mesh;
 }
 
-Mesh<float> make_sphere(const Vec& center, float radius) {
-    constexpr int rings = 17, ring_vertices = 381;
+Mesh<float> make_sphere(const Vec& center, float radius, std::size_t triangles) {
+    const double ring_vertices = static_cast<double>(triangles / 2);
+    const int rings = static_cast<int>(std::lround(0.87 * std::sqrt(ring_vertices)));
     std::vector<Ring> profile;
     double wanted = 0.0, sines = 0.0;
     for (int i = 1; i <= rings; ++i) sines += std::sin(pi<double> * i / (rings + 1));
@@ -134,6 +135,17 @@ Mesh<float> make_prism(const Vec& center, float radius, float half_height, std::
     for (std::size_t i = profile.size(); i-- > 0;)
         profile.push_back({profile[i].radius, -profile[i].y, profile[i].count});
     return make_turned(center, half_height + dome, profile, -half_height - dome);
+}
+
+Mesh<float> make_star(const Vec& center, float outer, float inner, float half_height, std::uint32_t spikes) {
+    const std::uint32_t corners = 2 * spikes;
+    Mesh<float> mesh =
+        make_turned(center, half_height, {{outer, half_height, corners}, {outer, -half_height, corners}}, -half_height);
+    for (std::uint32_t k = 1; k < 2 * corners; k += 2) {  // between the poles
+        Vec& dent = mesh.positions[1 + k];
+        for (const int axis : {0, 2}) dent[axis] = mix(center[axis], dent[axis], inner / outer);
+    }
+    return mesh;
 }
 
 Mesh<float> import_mesh(const std::string& file) {

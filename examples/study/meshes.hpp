@@ -43,13 +43,16 @@ struct Ring {
 /// rings may differ in their number of vertices.
 Mesh<float> make_turned(const Vec3<float>& center, float top, const std::vector<Ring>& rings, float bottom);
 
-/// A sphere of 762 triangles of about equal size: two poles and 17 rings of 381 vertices in all.
-Mesh<float> make_sphere(const Vec3<float>& center, float radius);
+/// A sphere of so many triangles, of about equal size: two poles, and rings of half as many vertices in all.
+Mesh<float> make_sphere(const Vec3<float>& center, float radius, std::size_t triangles = 762);
 
 /// A prism on a regular polygon of `rim` corners, its caps raised by `dome` in their middle and cut in about
 /// `triangles` triangles in all, with no new vertex on the rim.
 Mesh<float> make_prism(const Vec3<float>& center, float radius, float half_height, std::uint32_t rim,
                        std::size_t triangles, float dome);
+
+/// A prism on a star: `spikes` corners at `outer` from its axis, the first towards +x, as many between them at `inner`.
+Mesh<float> make_star(const Vec3<float>& center, float outer, float inner, float half_height, std::uint32_t spikes);
 
 /// Every mesh of a file that assimp reads as one mesh, vertices at one place welded. Throws std::runtime_error with a
 /// message for the user.

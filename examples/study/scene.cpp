@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "meshes.hpp"
 
@@ -19,6 +20,8 @@ constexpr const char* bunny_file = "/usr/share/glmark2/models/bunny.obj";
 Light light_above(const Vec& center, float half_size) {
     return RectLight<float>{center, Vec(half_size, 0.0F, 0.0F), Vec(0.0F, 0.0F, half_size)};  // emits along −y
 }
+
+Light disk_above(const Vec& center, float radius) { return DiskLight<float>{center, Vec(0.0F, -1.0F, 0.0F), radius}; }
 
 void add_ground(Scene& scene) {
     add_quad(scene.ground, Vec(0.0F, 0.0F, 0.0F), Vec(12.0F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -12.0F));
@@ -180,6 +183,29 @@ Scene fan() {
     return scene;
 }
 
+/// A star, much smaller than the light, that leaves the less umbra on the ground the higher it is.
+Scene concave(float height) {
+    Scene scene;
+    scene.about = fmt::format("A star of radius 1 under a light of radius 2, {:g} above the ground.", height);
+    scene.subject = Subject::volumes;
+    scene.casters.push_back(make_star(Vec(0.0F, height, 0.0F), 1.0F, 0.45F, 0.08F, 5));
+    scene.light = disk_above(Vec(0.0F, 8.0F, 0.0F), 2.0F);
+    scene.camera = {Vec(2.2F, 5.6F, 7.6F), Vec(0.0F, 0.4F + 0.25F * height, 0.0F), 0.36F};
+    return scene;
+}
+Scene concave_near() { return concave(0.6F); }
+Scene concave_middle() { return concave(1.4F); }
+Scene concave_far() { return concave(3.0F); }
+
+/// A scene that was made for another kind of light of the same area.
+Scene with_light(Scene scene, const std::string& kind) {
+    scene.subject = kind == "disk" ? Subject::volumes : Subject::methods;
+    scene.light = as_kind(scene.light, kind);
+    return scene;
+}
+Scene spheres_disk() { return with_light(spheres(), "disk"); }
+Scene bunny_disk() { return with_light(bunny(), "disk"); }
+
 struct Named {
     const char* name;
     Scene (*make)();
@@ -196,7 +222,12 @@ constexpr Named built_in[] = {{"spheres", spheres},
                               {"overlap-20", overlap_20},
                               {"overlap-81", overlap_81},
                               {"comb", comb},
-                              {"fan", fan}};
+                              {"fan", fan},
+                              {"concave-near", concave_near},
+                              {"concave", concave_middle},
+                              {"concave-far", concave_far},
+                              {"spheres-disk", spheres_disk},
+                              {"bunny-disk", bunny_disk}};
 
 }  // namespace
 
@@ -233,7 +264,7 @@ Scene load_scene(const std::string& file) {
 
 Scene under(Scene scene, const std::string& kind, float size) {
     if (!kind.empty() && kind != kind_of(scene.light)) {
-        scene.light = as_kind(scene.light, kind);
+        scene = with_light(std::move(scene), kind);
         scene.name += ", " + kind;
     }
     if (size != 1.0F) {
