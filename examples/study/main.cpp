@@ -52,10 +52,10 @@ std::vector<Scene> wanted_scenes(const Arguments& arguments) {
     return scenes;
 }
 
-/// Scenes that compare rules for overlap are many and plain: they get by with less.
+/// Scenes that compare rules for overlap, and those of disk lights, are many and plain: they get by with less.
 Effort effort_for(Subject subject, const Arguments& arguments) {
     Effort effort;
-    if (subject == Subject::overlap) {
+    if (subject == Subject::overlap || subject == Subject::volumes) {
         effort.points = 4096, effort.timed = 2048, effort.most_rays = 512, effort.rounds = 3;
         effort.width = 400, effort.height = 300;
     }
@@ -80,8 +80,9 @@ int run(const Arguments& arguments, const std::string& command) {
         measure_scene(scene, settings, effort_for(scene.subject, arguments), folder, study);
     }
     if (arguments.scaling) {
-        measure_spheres(effort_for(Subject::overlap, arguments), study);
-        measure_triangles(effort_for(Subject::overlap, arguments), study);
+        const Effort effort = effort_for(Subject::overlap, arguments);
+        if (arguments.light != "disk") measure_spheres(effort, study), measure_triangles(effort, study);
+        if (arguments.light != "rectangle") measure_disk_triangles(effort, study), measure_resolution(effort, study);
     }
     compare_with_rays(study);
     for (const std::string& missing : write_study(study, folder)) fmt::print(stderr, "note: {}\n", missing);
@@ -109,7 +110,7 @@ int main(int argc, char** argv) {
                    "a method, with all its settings; again for more; all if none is named")
         ->check(CLI::IsMember(method_names()));
     app.add_flag("--scaling", arguments.scaling,
-                 "cost against the number of spheres and of triangles; no scenes unless they are named");
+                 "cost against spheres, triangles and resolutions; no scenes unless they are named");
     app.add_option("--points", arguments.points, "points to measure errors at, at most those that the camera sees")
         ->check(CLI::Range(1, 10000000));
     app.add_flag("--quick", arguments.quick, "fewer settings, points and rays: about a tenth of the time");

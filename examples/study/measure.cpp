@@ -67,12 +67,14 @@ Measured look_at(const Scene& scene, const Effort& effort) {
 struct Candidate {
     Built built;
     Row row;
+    std::string special;
 };
 
 Candidate build(const Setting& setting, const Measured& measured) {
     Candidate candidate;
     const auto start = Clock::now();
     candidate.built = setting.build(measured.scene);
+    candidate.special = setting.special;
     Row& row = candidate.row;
     row.build_ms = seconds_since(start) * 1e3;
     row.scene = measured.info.name;
@@ -99,7 +101,44 @@ const Candidate* find(const std::vector<Candidate>& candidates, const Setting& s
     return nullptr;
 }
 
-/// The default and the best setting of each method, and plain wedges beside blended ones where silhouettes overlap.
+/// The default and the best setting of each method, and those that are special.
+void draw_settings(const ScenePictures& pictures, const std::vector<Candidate>& candidates, Study& study) {
+    for (const Candidate& candidate : candidates) {
+        const Row& row = candidate.row;
+        const Row* best = best_row(study, row.scene, row.method);
+        const bool is_best = best && best->knobs == row.knobs;
+        std::string special = row.is_default ? "default" : candidate.special;
+        if (is_best) special += special.empty() ? "best setting" : ", the best setting";
+        if (special.empty()) continue;
+        if (pictures.seconds(row) > longest_picture) {
+            fmt::print(stderr, "{}: no picture of {}, it would take {:.0f} s\n", row.scene, row.method,
+                       pictures.seconds(row));
+            continue;
+        }
+        study.pictures.push_back(pictures.draw(row, candidate.built, special));
+    }
+}
+
+/// Plain wedges beside blended ones where silhouettes overlap.
+void draw_triplet(const ScenePictures& pictures, const std::vector<Candidate>& candidates, Study& study) {
+    const WedgeFigure figure = wedge_figure();
+    const Candidate *plain = find(candidates, figure.plain), *blended = find(candidates, figure.blended);
+    if (!plain || !blended) return;
+    if (pictures.seconds(plain->row) + pictures.seconds(blended->row) > longest_picture) return;
+    study.triplets.push_back(pictures.triplet(plain->row, plain->built, blended->row, blended->built));
+}
+
+/// Where umbra and penumbra begin by volumes from the disk and from its centre.
+void draw_parts(const ScenePictures& pictures, const Measured& measured, const std::vector<Candidate>& candidates,
+                Study& study) {
+    const VolumeFigure figure = volume_figure();
+    const Candidate *disk = find(candidates, figure.two_layers), *center = find(candidates, figure.from_light_center);
+    if (!disk || !center) return;
+    study.parts.push_back(
+        pictures.parts(measured.traced, {{"D-buffer, volumes from the disk", &disk->built},
+                                         {"D-buffer, volumes from the light's centre", &center->built}}));
+}
+
 void draw(const Measured& measured, const std::vector<Candidate>& candidates, const std::filesystem::path& folder,
           Study& study) {
     const Scene& scene = measured.scene;
@@ -107,24 +146,11 @@ void draw(const Measured& measured, const std::vector<Candidate>& candidates, co
     const ScenePictures pictures(scene, measured.view,
                                  trace(measured.traced, scene, measured.view.points, measured.effort.picture_rays),
                                  folder);
-    for (const Candidate& candidate : candidates) {
-        const Row& row = candidate.row;
-        const Row* best = best_row(study, scene.name, row.method);
-        const bool is_best = best && best->knobs == row.knobs;
-        if (!is_best && !row.is_default) continue;
-        if (pictures.seconds(row) > longest_picture) {
-            fmt::print(stderr, "{}: no picture of {}, it would take {:.0f} s\n", scene.name, row.method,
-                       pictures.seconds(row));
-            continue;
-        }
-        const char* special = !row.is_default ? "best setting" : is_best ? "default, the best setting" : "default";
-        study.pictures.push_back(pictures.draw(row, candidate.built, special));
-    }
-    const WedgeFigure figure = wedge_figure();
-    const Candidate *plain = find(candidates, figure.plain), *blended = find(candidates, figure.blended);
-    if (scene.subject != Subject::overlap || measured.info.overlap_points == 0 || !plain || !blended) return;
-    if (pictures.seconds(plain->row) + pictures.seconds(blended->row) > longest_picture) return;
-    study.triplets.push_back(pictures.triplet(plain->row, plain->built, blended->row, blended->built));
+    draw_settings(pictures, candidates, study);
+    if (scene.subject == Subject::overlap && measured.info.overlap_points > 0)
+        draw_triplet(pictures, candidates, study);
+    if (scene.subject == Subject::volumes && scene.casters.size() == 1)
+        draw_parts(pictures, measured, candidates, study);
 }
 
 }  // namespace

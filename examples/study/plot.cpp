@@ -28,11 +28,12 @@ Keys keys_of(const Study& study, const std::string& scene) {
     const std::vector<std::string> methods = methods_on(study, scene);
     if (methods.size() > 1) return {"method", "method"};
     if (!methods.empty() && methods.front() == "penumbra_wedge") return {"overlap", "silhouette"};
+    if (!methods.empty() && methods.front() == "umbra_volume") return {"mode", "layers"};
     return {"filter", "combination"};
 }
 
 std::string value_of(const Row& row, const std::string& key) {
-    return key == "method" ? row.method : knob_text(row, key, row.method);
+    return key == "method" ? row.method : knob_text(row, key, "no " + key);
 }
 
 std::string curve_key(const RayRow& row) { return fmt::format("{} {}", row.sampler, row.packet); }

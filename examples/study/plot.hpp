@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "result.hpp"
 
@@ -15,9 +14,6 @@ namespace penumbra::study {
 bool write_plot(const Study& study, const std::string& scene, const std::filesystem::path& folder);
 
 /// plot-cost-<figure>: cost against size.
-bool write_cost_plot(const Study& study, const std::string& figure, const std::filesystem::path& folder);
-
-/// The figures that the study has costs of.
-std::vector<std::string> cost_figures(const Study& study);
+bool write_cost_plot(const CostFigure& figure, const std::filesystem::path& folder);
 
 }  // namespace penumbra::study

@@ -82,6 +82,22 @@ std::vector<float> trace(const reference::Scene& traced, const Scene& scene, con
     return trace(traced, scene, points, options);
 }
 
+std::vector<float> trace_rim(const reference::Scene& traced, const Scene& scene, const Points& points, int rays) {
+    const std::vector<LinearLight<float>> pieces = rim(scene.light);
+    SampleOptions options;
+    options.samples = std::max(rays / static_cast<int>(pieces.size()), 1);
+    std::vector<float> result(points.size());
+    in_parallel(points.size(), [&](std::size_t first, std::size_t count) {
+        std::vector<float> seen(count);
+        for (const LinearLight<float>& piece : pieces) {
+            traced.visibility(points.data() + first, count, piece, options, seen.data());
+            for (std::size_t i = 0; i < count; ++i) result[first + i] += seen[i];
+        }
+    });
+    for (float& visibility : result) visibility /= static_cast<float>(pieces.size());
+    return result;
+}
+
 std::vector<bool> overlaps(const Scene& scene, const Points& points) {
     constexpr int rays = 128;
     std::vector<bool> result(points.size());

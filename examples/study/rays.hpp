@@ -18,6 +18,9 @@ using Points = std::vector<Vec3<float>>;
 std::vector<float> trace(const reference::Scene& traced, const Scene& scene, const Points& points, int rays,
                          std::uint32_t seed = 0);
 
+/// How much of the light's rim each point sees: exactly 0 or 1 where no ray or every ray is blocked.
+std::vector<float> trace_rim(const reference::Scene& traced, const Scene& scene, const Points& points, int rays);
+
 /// At which points several casters hide the same part of the light: more than 1 % of it.
 std::vector<bool> overlaps(const Scene& scene, const Points& points);
 

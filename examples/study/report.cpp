@@ -62,6 +62,20 @@ Json row_json(const Row& row) {
             {"overlap_rmse", row.overlap_rmse < 0.0 ? Json(nullptr) : Json(row.overlap_rmse)}};
 }
 
+Json cost_json(const CostFigure& figure, const Cost& cost) {
+    const bool known = cost.rays.bound == Bound::none;
+    return {{"figure", figure.name},
+            {"series", cost.series},
+            {"x", cost.x},
+            {"ns_per_point", cost.ns_per_point},
+            {"at_least", cost.at_least},
+            {"rmse", cost.rmse < 0.0 ? Json(nullptr) : Json(cost.rmse)},
+            {"build_ms", cost.build_ms < 0.0 ? Json(nullptr) : Json(cost.build_ms)},
+            {"speedup", known ? positive(cost.rays.ns / cost.ns_per_point) : Json(nullptr)},
+            {"ray_ns_bound", bound_name(cost.rays.bound)},
+            {"ray_ns_limit", known ? Json(nullptr) : positive(cost.rays.ns)}};
+}
+
 std::string csv_field(const Json& value) {
     if (value.is_null()) return "";
     std::string text;
@@ -118,6 +132,8 @@ Json to_json(const Study& study) {
                  {"rays", Json::array()},
                  {"pictures", Json::array()},
                  {"triplets", Json::array()},
+                 {"parts", Json::array()},
+                 {"cost_figures", Json::array()},
                  {"costs", Json::array()}};
     for (const SceneInfo& scene : study.scenes)
         json["scenes"].push_back({{"name", scene.name},
@@ -149,14 +165,19 @@ Json to_json(const Study& study) {
                                     {"picture", triplet.png},
                                     {"plain_rmse", triplet.plain_rmse},
                                     {"blended_rmse", triplet.blended_rmse}});
-    for (const Cost& cost : study.costs)
-        json["costs"].push_back({{"figure", cost.figure},
-                                 {"series", cost.series},
-                                 {"x", cost.x},
-                                 {"ns_per_point", cost.ns_per_point},
-                                 {"at_least", cost.at_least},
-                                 {"rmse", cost.rmse < 0.0 ? Json(nullptr) : Json(cost.rmse)},
-                                 {"build_ms", cost.build_ms < 0.0 ? Json(nullptr) : Json(cost.build_ms)}});
+    for (const Parts& parts : study.parts) {
+        Json agreements = Json::array();
+        for (const Agreement& one : parts.agreements)
+            agreements.push_back({{"setting", one.setting}, {"right", one.all}, {"right_in_shadow", one.shadow}});
+        json["parts"].push_back({{"scene", parts.scene}, {"picture", parts.png}, {"agreements", agreements}});
+    }
+    for (const CostFigure& figure : study.cost_figures) {
+        json["cost_figures"].push_back({{"name", figure.name},
+                                        {"counts", figure.counts},
+                                        {"about", figure.about},
+                                        {"plot", "plot-cost-" + file_name(figure.name) + ".svg"}});
+        for (const Cost& cost : figure.costs) json["costs"].push_back(cost_json(figure, cost));
+    }
     return json;
 }
 
@@ -183,7 +204,7 @@ std::vector<std::string> write_study(const Study& study, const fs::path& folder)
     write_file(folder / "study.csv", to_csv(study));
     bool plots = true;
     for (const SceneInfo& scene : study.scenes) plots = write_plot(study, scene.name, folder) && plots;
-    for (const std::string& figure : cost_figures(study)) plots = write_cost_plot(study, figure, folder) && plots;
+    for (const CostFigure& figure : study.cost_figures) plots = write_cost_plot(figure, folder) && plots;
     if (!plots) notes.emplace_back("No plot-*.svg: gnuplot (package gnuplot-nox) is missing or failed.");
     const fs::path chart = find_chart();
     if (chart.empty())

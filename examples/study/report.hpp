@@ -11,9 +11,9 @@
 
 namespace penumbra::study {
 
-/// The study as JSON: {"study", "scenes", "rows", "rays", "pictures", "triplets", "costs"}. Where the cost of rays is
-/// only bounded, ray_ns_at_equal_rmse and speedup are null, ray_ns_bound is "lower" or "upper" and ray_ns_limit the
-/// bound.
+/// The study as JSON: {"study", "scenes", "rows", "rays", "pictures", "triplets", "parts", "cost_figures", "costs"}.
+/// Where the cost of rays is only bounded, ray_ns_at_equal_rmse and speedup are null, ray_ns_bound is "lower" or
+/// "upper" and ray_ns_limit the bound.
 nlohmann::ordered_json to_json(const Study& study);
 
 /// One line a row, the same fields; knobs as k=v;k=v; empty where JSON has null.

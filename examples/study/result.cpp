@@ -30,6 +30,10 @@ std::string text_of(const Row& row, Wanted&& wanted) {
 
 }  // namespace
 
+bool has_rays(const CostFigure& figure) {
+    return std::any_of(figure.costs.begin(), figure.costs.end(), [](const Cost& cost) { return cost.rays.ns > 0.0; });
+}
+
 void compare_with_rays(Study& study) {
     for (Row& row : study.rows) {
         const RayCost cost = ray_cost(study.ray_rows, row.scene, row.rmse);
@@ -81,8 +85,10 @@ std::string file_name(const std::string& scene) {
 }
 
 std::string plain_name(const std::string& name) {
-    static const std::map<std::string, std::string> names = {
-        {"n_buffer", "N-Buffer"}, {"mipmap", "mip-map"}, {"rectangles", "rectangles (the paper)"}};
+    static const std::map<std::string, std::string> names = {{"n_buffer", "N-Buffer"},
+                                                             {"d_buffer", "D-buffer"},
+                                                             {"mipmap", "mip-map"},
+                                                             {"rectangles", "rectangles (the paper)"}};
     const auto known = names.find(name);
     if (known != names.end()) return known->second;
     std::string text = name;

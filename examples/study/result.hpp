@@ -52,14 +52,35 @@ struct Triplet {
     double plain_rmse = 0.0, blended_rmse = 0.0;  ///< of visibility, at the points where silhouettes overlap
 };
 
-/// A point of a plot of cost against the size of a scene.
+/// The share of points that a setting has where the truth has them, in light, penumbra or umbra: of all points, and of
+/// those that are not in the light.
+struct Agreement {
+    std::string setting;
+    double all = 0.0, shadow = 0.0;  ///< in [0, 1]
+};
+
+/// Light, penumbra and umbra by the truth and by settings, side by side.
+struct Parts {
+    std::string scene, png;
+    std::vector<Agreement> agreements;
+};
+
+/// A point of a plot of cost against size.
 struct Cost {
-    std::string figure;  ///< which plot: "spheres" or "triangles", what x counts
     std::string series;
     double x = 0.0, ns_per_point = 0.0;
     double rmse = -1.0;      ///< negative if it was not measured
     double build_ms = -1.0;  ///< negative likewise
     bool at_least = false;   ///< the time is a lower bound
+    RayCost rays;            ///< at the same RMSE, where rays were swept
+};
+
+struct CostFigure {
+    std::string name;                 ///< of files
+    std::string counts;               ///< what x counts
+    std::string about;                ///< for the report
+    bool log_x = true, log_y = true;  ///< axes by factors
+    std::vector<Cost> costs = {};
 };
 
 struct SceneInfo {
@@ -80,8 +101,12 @@ struct Study {
     std::vector<RayRow> ray_rows;
     std::vector<Picture> pictures;
     std::vector<Triplet> triplets;
-    std::vector<Cost> costs;
+    std::vector<Parts> parts;
+    std::vector<CostFigure> cost_figures;
 };
+
+/// Were rays swept for the figure's points?
+bool has_rays(const CostFigure& figure);
 
 /// Fills the ray figures of every row from `ray_rows` of its scene: the cheapest sampler at the row's RMSE.
 void compare_with_rays(Study& study);

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "parts.hpp"
 #include "picture.hpp"
 
 namespace penumbra::study {
@@ -43,7 +44,7 @@ ScenePictures::ScenePictures(const Scene& scene, const View& view, std::vector<f
 
 Picture ScenePictures::draw(const Row& row, const Built& built, const std::string& special) const {
     const std::vector<float> visibility = ask(built, view_.points);
-    const std::string file = fmt::format("{}-{}{}", file_, row.method, row.is_default ? "" : "-best");
+    const std::string file = fmt::format("{}-{}{}", file_, row.method, row.is_default ? "" : "-" + file_name(special));
     Picture picture;
     picture.scene = scene_.name;
     picture.label = fmt::format("{}, {}", plain_name(row.method), special);
@@ -74,6 +75,24 @@ Triplet ScenePictures::triplet(const Row& plain, const Built& plain_built, const
                             {title("blended wedges", blended), shade(view_, ask(blended_built, view_.points))},
                             {scene_.name + "\nray-traced truth", shade(view_, truth_)}}));
     return triplet;
+}
+
+Parts ScenePictures::parts(const reference::Scene& traced,
+                           const std::vector<std::pair<std::string, const Built*>>& settings) const {
+    const std::vector<Part> truth = true_parts(traced, scene_, view_, truth_);
+    Parts result{scene_.name, file_ + "-parts.png", {}};
+    std::vector<Panel> panels = {
+        {scene_.name + "\nlight, penumbra and umbra, traced", parts_picture(view_, truth, truth)}};
+    for (const auto& [name, built] : settings) {
+        const std::vector<Part> parts = parts_of(ask(*built, view_.points));
+        const Agreement found = agreement(name, parts, truth);
+        panels.push_back({fmt::format("{}\n{:.2f} % of points right, {:.2f} % in shadow", name, 100.0 * found.all,
+                                      100.0 * found.shadow),
+                          parts_picture(view_, parts, truth)});
+        result.agreements.push_back(found);
+    }
+    write_png(folder_ / result.png, side_by_side(panels));
+    return result;
 }
 
 double ScenePictures::seconds(const Row& row) const {

@@ -1,8 +1,10 @@
-// Pictures of a scene: its truth, settings beside it, and wedges plain and blended beside it.
+// Pictures of a scene: its truth, settings beside it, wedges plain and blended beside it, and its light, penumbra and
+// umbra.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "result.hpp"
@@ -20,6 +22,10 @@ class ScenePictures {
     /// A setting's picture, its difference, and a panel of both with the truth. `special` says what is special about
     /// the setting.
     Picture draw(const Row& row, const Built& built, const std::string& special) const;
+
+    /// Light, penumbra and umbra as the truth has them, and as named settings do.
+    Parts parts(const reference::Scene& traced,
+                const std::vector<std::pair<std::string, const Built*>>& settings) const;
 
     /// Figures 1 and 2 of the paper; rows and settings of plain and of blended wedges.
     Triplet triplet(const Row& plain, const Built& plain_built, const Row& blended, const Built& blended_built) const;

@@ -13,8 +13,9 @@ struct Method {
     const char* name;
     std::vector<Setting> (*settings)(Sweep);
 };
-constexpr std::array<Method, 2> methods = {
-    {{"occlusion_texture", occlusion_texture_settings}, {"penumbra_wedge", penumbra_wedge_settings}}};
+constexpr std::array<Method, 3> methods = {{{"occlusion_texture", occlusion_texture_settings},
+                                            {"penumbra_wedge", penumbra_wedge_settings},
+                                            {"umbra_volume", umbra_volume_settings}}};
 
 Sweep default_sweep(const std::string& method, Subject subject) {
     if (subject == Subject::occlusion_textures && method != "occlusion_texture") return Sweep::one;

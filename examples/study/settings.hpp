@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <penumbra/geometry.hpp>
+#include <penumbra/umbra_volume/options.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,26 +31,31 @@ struct Setting {
     bool is_default = false;
     bool (*takes)(const Light&);               ///< is the method for such a light?
     std::function<Built(const Scene&)> build;  ///< for a scene whose light it takes
+    std::string special;                       ///< why there is a picture of it in any case; empty if there need not be
 };
 
 /// The setting of `Shadow`, which is for lights of kind `For`, with the given options.
 template <class Shadow, class For>
 Setting make_setting(const std::string& method, const nlohmann::ordered_json& knobs, bool is_default,
                      const typename Shadow::Options& options) {
-    return {method, knobs, is_default, [](const Light& light) { return std::holds_alternative<For>(light); },
+    return {method,
+            knobs,
+            is_default,
+            [](const Light& light) { return std::holds_alternative<For>(light); },
             [options](const Scene& scene) {
                 const auto shadow = std::make_shared<const Shadow>(scene.casters, std::get<For>(scene.light), options);
                 return Built{[shadow](const Vec3<float>* points, std::size_t count, float* result) {
                                  shadow->visibility(points, count, result);
                              },
                              shadow->bytes()};
-            }};
+            },
+            ""};
 }
 
 /// How many settings of a method.
 enum class Sweep { none, one, few, all };
 
-/// occlusion_texture, penumbra_wedge.
+/// occlusion_texture, penumbra_wedge, umbra_volume.
 std::vector<std::string> method_names();
 
 /// Settings of a method, the default first.
@@ -65,10 +71,20 @@ std::vector<Setting> occlusion_texture_settings(Sweep sweep);
 /// PenumbraWedgeShadow: every rule for overlap, with silhouettes from the light's centre and from each point.
 std::vector<Setting> penumbra_wedge_settings(Sweep sweep);
 
+/// UmbraVolumeShadow: sums over edges by every rule for overlap, and D-buffers around the paper's and the best.
+std::vector<Setting> umbra_volume_settings(Sweep sweep);
+
 /// Plain wedges, wedges as the paper blends them, and the default: what pictures and plots of its figures compare.
 struct WedgeFigure {
     Setting plain, blended, ours;
 };
 WedgeFigure wedge_figure();
+
+/// The default, the best of one and of two layers, and the latter with volumes from what the light's centre sees: what
+/// costs are compared of, and where light, penumbra and umbra lie.
+struct VolumeFigure {
+    Setting edge_sum, one_layer, two_layers, from_light_center;
+};
+VolumeFigure volume_figure(int resolution = UmbraVolumeOptions().resolution);
 
 }  // namespace penumbra::study

@@ -23,6 +23,12 @@ std::string bounded(Bound bound, double known, double limit, const char* unit) {
     return (bound == Bound::lower ? "> " : "< ") + digits(limit) + unit;
 }
 
+/// Of rays that cost so much at the same RMSE.
+std::string speedup_text(const RayCost& rays, double ns_per_point) {
+    const double factor = rays.ns / ns_per_point;
+    return bounded(rays.bound, factor, factor, "×");
+}
+
 using Cells = std::array<std::string, 7>;
 
 Cells cells(const Study& study, const Row& row) {
@@ -50,17 +56,24 @@ void print_line(std::FILE* out, const char* mark, const Cells& line, const std::
 }
 
 void print_costs(const Study& study, std::FILE* out) {
-    for (const std::string& figure : cost_figures(study)) {
-        fmt::print(out, "\n{:>10}  {:>10}  {:>8}  {:>9}  series\n", figure, "ns/point", "RMSE", "build, ms");
+    for (const CostFigure& figure : study.cost_figures) {
+        const bool with_rays = has_rays(figure);
+        const auto line = [&](const std::string& x, const std::string& ns, const std::string& rmse,
+                              const std::string& build, const std::string& faster, const std::string& series) {
+            fmt::print(out, "{:>{}}  {:>10}  {:>8}  {:>9}  ", x, std::max<std::size_t>(10, figure.counts.size()), ns,
+                       rmse, build);
+            fmt::print(out, "{}{}\n", with_rays ? fmt::format("{:>8}  ", faster) : "", series);
+        };
+        fmt::print(out, "\n{}\n", figure.about);
+        line(figure.counts, "ns/point", "RMSE", "build, ms", "speedup", "series");
         std::vector<const Cost*> costs;
-        for (const Cost& cost : study.costs)
-            if (cost.figure == figure) costs.push_back(&cost);
+        for (const Cost& cost : figure.costs) costs.push_back(&cost);
         std::stable_sort(costs.begin(), costs.end(),
                          [](const Cost* a, const Cost* b) { return a->series < b->series; });
         for (const Cost* cost : costs)
-            fmt::print(out, "{:>10}  {:>10}  {:>8.4f}  {:>9}  {}\n", cost->x,
-                       (cost->at_least ? "> " : "") + digits(cost->ns_per_point), cost->rmse,
-                       cost->build_ms < 0.0 ? "" : digits(cost->build_ms), cost->series);
+            line(fmt::format("{}", cost->x), (cost->at_least ? "> " : "") + digits(cost->ns_per_point),
+                 fmt::format("{:.4f}", cost->rmse), cost->build_ms < 0.0 ? "" : digits(cost->build_ms),
+                 speedup_text(cost->rays, cost->ns_per_point), cost->series);
     }
 }
 

@@ -22,7 +22,7 @@ const whole = x => x.toLocaleString("en-US");
 const bytes = x => x >= 1 << 20 ? digits(x / (1 << 20)) + " MiB" : digits(x / 1024) + " KiB";
 const knobText = value => value === true ? "yes" : value === false ? "no" : value === undefined ? "" : String(value);
 const names = {
-  n_buffer: "N-Buffer", mipmap: "mip-map", summed_area: "summed area", rectangles: "rectangles (the paper)",
+  n_buffer: "N-Buffer", d_buffer: "D-buffer", mipmap: "mip-map", summed_area: "summed area", rectangles: "rectangles (the paper)",
   r2: "R2", sobol: "Sobol", "r2 coherent": "R2 coherent", "sobol coherent": "Sobol coherent",
 };
 const plain = name => names[name] ?? name.replaceAll("_", " ");
@@ -71,6 +71,7 @@ const scenes = data.scenes.map((info, index) => {
     rays: data.rays.filter(row => row.scene === info.name),
     pictures: data.pictures.filter(picture => picture.scene === info.name),
     triplet: data.triplets.find(triplet => triplet.scene === info.name),
+    parts: data.parts.find(parts => parts.scene === info.name),
     keys: methods.length > 1 ? ["method", ...knobs] : knobs,
     best: paretoFront(rows).pop(),
   };
@@ -78,8 +79,7 @@ const scenes = data.scenes.map((info, index) => {
 /** What a row's own method varies on the scene. */
 const ownKnobs = (scene, row) => knobsOf(row, scene.methods.find(method => method.name === row.method).keys);
 
-const costFigures = distinct(data.costs.map(cost => cost.figure));
-const costPlot = figure => ({ name: "cost against " + figure, plot: `plot-cost-${figure}.svg` });
+const costFigures = data.cost_figures.map(figure => ({ ...figure, costs: data.costs.filter(cost => cost.figure === figure.name) }));
 
 // ---------------------------------------------------------------- head and summary
 
@@ -98,7 +98,7 @@ function drawHead() {
   if (costFigures.length) list.append(el("li", {}, el("a", { href: "#cost" }, "cost against size")));
   for (const scene of scenes) list.append(el("li", {}, el("a", { href: "#" + scene.id }, scene.name)));
   $("#nav").append(list);
-  [...costFigures.map(costPlot), ...scenes].forEach((it, i) => $("#plots").append(i ? ", " : "", el("a", { href: it.plot }, it.name)));
+  [...costFigures.map(({ counts, plot }) => ({ name: "cost against " + counts, plot })), ...scenes].forEach((it, i) => $("#plots").append(i ? ", " : "", el("a", { href: it.plot }, it.name)));
 }
 
 function drawSummary() {
@@ -339,7 +339,7 @@ function drawPlot(scene, root) {
   }
   const keys = scene.keys.length ? scene.keys : ["method"];
   const pick = wanted => wanted.find(key => keys.includes(key)) ?? keys[0];
-  const state = { hue: pick(["method", "overlap", "filter"]), shape: pick(["method", "silhouette", "combination"]), hidden: new Set() };
+  const state = { hue: pick(["method", "mode", "overlap", "filter"]), shape: pick(["method", "layers", "silhouette", "combination"]), hidden: new Set() };
   Chart.defaults.font.family = css("--sans");
   const chart = new Chart(canvas, { type: "line", data: { datasets: datasets(scene, state, canvas.parentElement.clientWidth < 640 ? 0.65 : 1) }, options: options(scene) });
   canvas.setAttribute("aria-label", caption.textContent + " Arrow keys step through the settings that are best for their time; all figures are in the table below.");
@@ -482,39 +482,53 @@ function drawTable(scene, root, light) {
   draw();
 }
 
-// ---------------------------------------------------------------- wedges
+// ---------------------------------------------------------------- rows of pictures
 
 /** Plain wedges, blended wedges and truth. */
 function drawTriplet(scene, root) {
-  const figure = $(".triplet", root), { triplet } = scene;
+  const figure = $(".triplet:not(.parts)", root), { triplet } = scene;
   if (!triplet) return figure.remove();
   const caption = `Plain wedges, wedges blended as by Forest, Barthe & Paulin, and the truth. At the ${whole(scene.overlap_points)} of ` +
     `${whole(scene.points)} points from which silhouettes overlap, RMSE is ${error(triplet.plain_rmse)} and ${error(triplet.blended_rmse)}` +
     `${triplet.blended_rmse > 0 ? `, ${digits(triplet.plain_rmse / triplet.blended_rmse)}× lower` : ""}.`;
-  $("a", figure).href = $("img", figure).src = triplet.picture;
+  showRow(scene, figure, triplet.picture, "d", caption);
+}
+
+/** Where light, penumbra and umbra lie. */
+function drawParts(scene, root) {
+  const figure = $(".parts", root), { parts } = scene;
+  if (!parts) return figure.remove();
+  const percent = x => (100 * x).toFixed(2) + " %";
+  const right = parts.agreements.map(one => `${one.setting}: ${percent(one.right)} of the points right, ${percent(one.right_in_shadow)} of those in shadow`);
+  showRow(scene, figure, parts.picture, "d", `Light, penumbra and umbra, from bright to dark, as rays find them and as a method does: ` +
+    `all of the light seen, some, or none. Where a method is wrong, red is too bright and blue too dark. ${right.join("; ")}.`);
+}
+
+function showRow(scene, figure, picture, letter, caption) {
+  $("a", figure).href = $("img", figure).src = picture;
   $("img", figure).alt = caption;
-  $("figcaption", figure).append(el("b", {}, `Figure ${scene.index + 1}d. `), caption);
+  $("figcaption", figure).append(el("b", {}, `Figure ${scene.index + 1}${letter}. `), caption);
 }
 
 function drawCosts() {
   const root = $("#cost");
   if (!costFigures.length) return root.remove();
-  const about = {
-    spheres: "Cost against the number of spheres, as in Figure 12 of Forest, Barthe & Paulin 2006: spheres of 762 triangles under a low light, so that silhouettes overlap.",
-    triangles: "Cost against the number of triangles of a prism with 48 corners: all go into its caps, flat or domed, and its silhouette stays as it is.",
-  };
-  for (const name of costFigures) {
-    const rows = data.costs.filter(cost => cost.figure === name), sizes = distinct(rows.map(cost => cost.x));
-    const cell = (series, x) => {
-      const cost = rows.find(row => row.series === series && row.x === x);
-      return el("td", { class: "number" }, cost ? (cost.at_least ? "> " : "") + digits(cost.ns_per_point) : "–");
+  for (const figure of costFigures) {
+    const { costs, about } = figure, sizes = distinct(costs.map(cost => cost.x)), series = distinct(costs.map(cost => cost.series));
+    // what rays are compared with is there in full
+    const compared = costs.some(cost => cost.speedup !== null || cost.ray_ns_bound !== null);
+    const rows = [["ns/point", cost => (cost.at_least ? "> " : "") + digits(cost.ns_per_point)],
+      ...(compared ? [["RMSE", cost => error(cost.rmse)], ["speed-up", cost => speedup(cost).text], ["build, ms", cost => digits(cost.build_ms)]] : [])];
+    const cell = (name, x, text) => {
+      const cost = costs.find(each => each.series === name && each.x === x);
+      return el("td", { class: "number" }, cost ? text(cost) : "–");
     };
-    const { plot } = costPlot(name);
-    root.append(el("figure", { class: "plot" }, el("img", { src: plot, alt: about[name] }), el("figcaption", {}, about[name])),
-      el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "ns/point of each number of " + name }, el("table", {},
-        el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "ns/point"), ...sizes.map(x => el("th", { scope: "col", class: "number" }, `${whole(x)} ${name}`)))),
-        el("tbody", {}, ...distinct(rows.map(row => row.series)).map(series =>
-          el("tr", {}, el("th", { scope: "row" }, series), ...sizes.map(x => cell(series, x))))))));
+    root.append(el("figure", { class: "plot" }, el("img", { src: figure.plot, alt: about }), el("figcaption", {}, about)),
+      el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cost of each " + figure.counts }, el("table", {},
+        el("thead", {}, el("tr", {}, el("th", { scope: "col" }, figure.counts), el("th", { scope: "col" }, ""), ...sizes.map(x => el("th", { scope: "col", class: "number" }, whole(x))))),
+        el("tbody", {}, ...series.flatMap(name => rows.map(([head, text], i) =>
+          el("tr", { class: i ? "same" : "" }, i ? null : el("th", { scope: "row", rowspan: rows.length }, name), el("td", {}, head),
+            ...sizes.map(x => cell(name, x, text)))))))));
   }
 }
 
@@ -533,6 +547,7 @@ function drawScene(scene) {
   $("#scenes").append(root);
   drawPictures(scene, root);
   drawTriplet(scene, root);
+  drawParts(scene, root);
   if (!scene.rows.length) return;
   drawTable(scene, root, drawPlot(scene, root));
 }
