@@ -16,8 +16,8 @@ enum class Part { umbra, penumbra, light };  // from dark to bright
 /// Visibility of exactly 0, between, exactly 1; one a point.
 std::vector<Part> parts_of(const std::vector<float>& visibility);
 
-/// The parts by `visibility` of few rays, at the view's points. Few rays miss thin slices of the light, which lie at its
-/// rim where a part begins: from points near a border, the rim is traced too.
+/// The parts by `visibility` of few rays, at the view's points. Few rays miss thin slices of the light, which lie at
+/// its rim where a part begins: from points near a border, the rim is traced too.
 std::vector<Part> true_parts(const reference::Scene& traced, const Scene& scene, const View& view,
                              std::vector<float> visibility);
 
