@@ -17,6 +17,7 @@
 #include <penumbra/occlusion_texture/summed_area.hpp>
 #include <penumbra/penumbra_wedge/bitmask.hpp>
 #include <penumbra/penumbra_wedge/blending.hpp>
+#include <penumbra/penumbra_wedge/caster_index.hpp>
 #include <penumbra/penumbra_wedge/clip.hpp>
 #include <penumbra/penumbra_wedge/coverage.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
@@ -34,5 +35,14 @@
 #include <penumbra/penumbra_wedge/wedge_texels.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <penumbra/raster.hpp>
+#include <penumbra/umbra_volume/cut_share.hpp>
+#include <penumbra/umbra_volume/d_buffer.hpp>
+#include <penumbra/umbra_volume/d_buffer_texels.hpp>
+#include <penumbra/umbra_volume/disk_coverage.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>
+#include <penumbra/umbra_volume/edge_sum.hpp>
 #include <penumbra/umbra_volume/extrusion.hpp>
+#include <penumbra/umbra_volume/options.hpp>
+#include <penumbra/umbra_volume/shadow.hpp>
+#include <penumbra/umbra_volume/silhouette.hpp>
+#include <penumbra/umbra_volume/volume.hpp>

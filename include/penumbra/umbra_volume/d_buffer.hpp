@@ -1,0 +1,443 @@
+// D-buffer: a picture from the centre of a disk light of where rays enter penumbrae and leave umbrae.
+//
+// A ray from the light's centre is blocked by casters or not. If not, it is lit up to where it enters the first
+// penumbra volume, and from there on the edge that it crossed hides a part of the disk. If it is blocked, it is dark
+// from the caster to where it leaves the umbra volume, and the edge that it crosses there uncovers a part. So one texel
+// has, for either case, the depth of the crossing and the edge. A second layer has the next crossing, as depth peeling
+// finds it: then two edges cut the disk.
+//
+// Texel centres are right up to rounding; other points take the texel that they lie in, so that boundaries of umbra and
+// penumbra are off by a texel at most.
+// Source: the umbra and penumbra volume paper for circular lights; second layer, edges and rules for two cuts are ours.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <penumbra/geometry.hpp>
+#include <penumbra/light.hpp>
+#include <penumbra/mesh.hpp>
+#include <penumbra/raster.hpp>
+#include <penumbra/umbra_volume/cut_share.hpp>
+#include <penumbra/umbra_volume/disk_visibility.hpp>
+#include <penumbra/umbra_volume/options.hpp>
+#include <penumbra/umbra_volume/silhouette.hpp>
+#include <penumbra/umbra_volume/volume.hpp>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace penumbra {
+
+/// Where a ray crosses the side of a volume, and the edge that it belongs to. No crossing: depth is infinite in effect.
+template <class T>
+struct Crossing {
+    T depth = std::numeric_limits<T>::max();
+    T silhouette_depth = T(0);  ///< of the edge, where the tangent plane's ray through the crossing meets it
+    std::uint32_t edge = 0;     ///< DBuffer::edges
+};
+
+/// A straight edge that hides part of the light, its caster on the left as seen from the light. Light space.
+template <class T>
+struct HidingEdge {
+    static constexpr std::uint32_t none = 0xffffffffU;
+    Vec3<T> a, b;
+    std::uint32_t mesh;
+    std::uint32_t chained = none;  ///< the edge beyond the silhouette faces at this one, which hides as well
+};
+
+/// The texels of an image from the light's centre: direction (x / z, y / z) in light space to texels.
+template <class T>
+struct DBufferView {
+    Rect2<T> slopes;  ///< of the image's borders
+    int resolution;
+    DBufferDepth depth = DBufferDepth::light_plane;
+
+    /// A point's depth, as the image has depths.
+    T depth_of(const Vec3<T>& point_ls) const {
+        return depth == DBufferDepth::euclidean ? safe_length(point_ls) : point_ls.z;
+    }
+
+    Vec2<T> to_texel(const Vec3<T>& point_ls) const {
+        const Vec2<T> size = extent(slopes), slope(point_ls.x / point_ls.z, point_ls.y / point_ls.z);
+        return Vec2<T>((slope.x - slopes.min.x) / size.x, (slope.y - slopes.min.y) / size.y) *
+               static_cast<T>(resolution);
+    }
+};
+
+/// Two edges as a point sees them.
+template <class T>
+struct TwoCuts {
+    T angle;      ///< between their visible sides, as disk_visibility(t1, t2, angle)
+    bool convex;  ///< each lies where the other hides, so that they hide only what both do
+};
+
+/// How two edges lie to each other from `point`, all in light space. Edges of different casters never hide as one.
+template <class T>
+TwoCuts<T> two_cuts(const HidingEdge<T>& first, const HidingEdge<T>& second, const Vec3<T>& point) {
+    const Vec3<T> zero(T(0), T(0), T(0));
+    const Vec3<T> n1 = normalize_or(glm::cross(first.a - point, first.b - first.a), zero);
+    const Vec3<T> n2 = normalize_or(glm::cross(second.a - point, second.b - second.a), zero);
+    const Vec3<T> way1 = normalize_or(Vec3<T>(n1.x, n1.y, T(0)), Vec3<T>(T(1), T(0), T(0)));
+    const Vec3<T> way2 = normalize_or(Vec3<T>(n2.x, n2.y, T(0)), Vec3<T>(T(1), T(0), T(0)));
+    const Vec3<T> apart = way1 - way2;
+    const T angle = detail::half_arc(T(0.25) * glm::dot(apart, apart));  // acos of a cosine loses digits at both ends
+    const T hidden1 = glm::dot(n1, (second.a + second.b) * T(0.5) - point);
+    const T hidden2 = glm::dot(n2, (first.a + first.b) * T(0.5) - point);
+    return {angle, first.mesh == second.mesh && hidden1 >= T(0) && hidden2 >= T(0)};
+}
+
+/// V(t) by one of its forms.
+template <class T>
+T cut_visibility(T t, CutVisibility form) {
+    return form == CutVisibility::exact   ? disk_visibility(t)
+           : form == CutVisibility::cubic ? disk_visibility_cubic(t)
+                                          : disk_visibility_sqrt(t);
+}
+
+/// Built once; looked up from any number of threads.
+template <class T>
+class DBuffer {
+  public:
+    static constexpr T widest = T(16);  ///< slope of the image's borders, at most
+
+    DBuffer() = default;
+    /// For valid casters and a valid light, in `frame`. Points outside of the image are lit: it holds all umbrae and
+    /// penumbrae but for what lies at slopes above `widest`. `resolution` ≥ 1 texels a side, `layers` 1 or 2. Casters
+    /// are cut off at a millionth of their reach before the light's plane.
+    DBuffer(const std::vector<Mesh<T>>& casters, const LightFrame<T>& frame, T radius, int resolution, int layers,
+            VolumeSilhouette silhouette = VolumeSilhouette::disk, DBufferDepth depth = DBufferDepth::light_plane)
+        : radius_(radius), layers_(layers) {
+        view_.depth = depth;
+        const LightFrame<double> exact{Vec3<double>(frame.origin), Vec3<double>(frame.u), Vec3<double>(frame.v),
+                                       Vec3<double>(frame.normal)};
+        double reach = 0.0;
+        std::vector<Mesh<double>> meshes;
+        for (const Mesh<T>& mesh : casters) {
+            Mesh<double> mesh_ls;
+            mesh_ls.triangles = mesh.triangles;
+            for (const Vec3<T>& p : mesh.positions) {
+                mesh_ls.positions.push_back(exact.to_light(Vec3<double>(p)));
+                reach = std::max(reach, detail::largest_component(mesh_ls.positions.back()));
+            }
+            meshes.push_back(mesh_ls);
+        }
+        near_ = 1e-6 * reach;
+        for (Mesh<double>& mesh : meshes) mesh = lit_part(mesh);
+        look_at(meshes, resolution);
+        const std::size_t count = static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
+        casters_.assign(count, std::numeric_limits<T>::max());
+        umbra_.assign(count * static_cast<std::size_t>(layers), {});
+        penumbra_.assign(umbra_.size(), {});
+        std::vector<Surface> surfaces(count);
+        for (std::uint32_t m = 0; m < meshes.size(); ++m) draw(meshes[m], m, silhouette, reach, surfaces);
+        for (int y = 0; y < resolution; ++y)
+            for (int x = 0; x < resolution; ++x) {
+                const double between = surfaces[texel(x, y)].between();
+                constexpr double none = std::numeric_limits<T>::max();
+                casters_[texel(x, y)] = static_cast<T>(between < none ? between * unit(x, y) : none);
+            }
+    }
+
+    bool empty() const { return casters_.empty() || !(view_.slopes.min.x < view_.slopes.max.x); }
+    const DBufferView<T>& view() const { return view_; }
+    int layers() const { return layers_; }
+    T radius() const { return radius_; }
+    const std::vector<HidingEdge<T>>& edges() const { return edges_; }
+    /// A texel's depth beyond which the ray is blocked: the middle of a solid, so that points on either side of it are
+    /// clearly before it or behind.
+    T caster(int x, int y) const { return casters_[texel(x, y)]; }
+    const Crossing<T>& umbra(int x, int y, int layer) const {
+        return umbra_[texel(x, y) * layer_count() + static_cast<std::size_t>(layer)];
+    }
+    const Crossing<T>& penumbra(int x, int y, int layer) const {
+        return penumbra_[texel(x, y) * layer_count() + static_cast<std::size_t>(layer)];
+    }
+    std::size_t bytes() const {
+        return casters_.size() * sizeof(T) + (umbra_.size() + penumbra_.size()) * sizeof(Crossing<T>) +
+               edges_.size() * sizeof(HidingEdge<T>);
+    }
+
+    /// The fraction of the light that a point in light space sees past one edge or two. Exactly 1 before the penumbra
+    /// and exactly 0 within the umbra; 1 on and behind the light's plane.
+    T visibility(const Vec3<T>& point, CutVisibility form, CutShare share) const {
+        if (!(point.z > T(0)) || empty()) return T(1);
+        const Vec2<T> at = view_.to_texel(point);
+        const T size = static_cast<T>(view_.resolution);
+        if (!(at.x >= T(0) && at.x < size && at.y >= T(0) && at.y < size)) return T(1);
+        const std::size_t i = texel(static_cast<int>(at.x), static_cast<int>(at.y));
+        const T depth = view_.depth_of(point);
+        const bool behind = depth > casters_[i];
+        const Crossing<T>* const crossings = (behind ? umbra_ : penumbra_).data() + i * layer_count();
+        // what an edge leaves that was not crossed yet: nothing of the light, or all
+        const T uncrossed = behind ? T(0) : T(1);
+        if (!(crossings[0].depth < depth)) return uncrossed;
+        const T t1 = cut_share(crossings[0], point, depth, behind, share);
+        const T v1 = cut_visibility(t1, form);
+        if (layers_ < 2 || !has_edge(crossings[1]) || !(crossings[1].silhouette_depth < depth)) return v1;
+        const bool crossed = crossings[1].depth < depth;
+        const HidingEdge<T>&first = edges_[crossings[0].edge], &second = edges_[crossings[1].edge];
+        const T t2 = crossed ? cut_share(crossings[1], point, depth, behind, share) : uncrossed;
+        const TwoCuts<T> cuts = two_cuts(first, second, point);
+        if (form == CutVisibility::exact)
+            return cuts.convex ? disk_visibility_between(t1, t2, cuts.angle) : disk_visibility(t1, t2, cuts.angle);
+        const T v2 = cut_visibility(t2, form);
+        return cuts.convex ? std::max(v1, v2) : std::min(v1, v2);
+    }
+
+  private:
+    /// The two surfaces of a texel nearest to the light.
+    struct Surface {
+        double first = std::numeric_limits<double>::max(), second = std::numeric_limits<double>::max();
+        double slack = 0.0;  ///< of the first: what its depth changes by over the texel
+        bool solid = false;
+
+        void add(double depth, double change, bool of_solid) {
+            if (depth < first)
+                second = first, first = depth, slack = change, solid = of_solid;
+            else
+                second = std::min(second, depth);
+        }
+        double between() const {
+            constexpr double none = std::numeric_limits<T>::max();
+            if (!(first < none)) return none;
+            return solid && second < none ? 0.5 * (first + second) : first + slack;
+        }
+    };
+
+    using EdgeNumbers = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;
+
+    std::size_t layer_count() const { return static_cast<std::size_t>(layers_); }
+    std::size_t texel(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(view_.resolution) + static_cast<std::size_t>(x);
+    }
+    static bool has_edge(const Crossing<T>& crossing) { return crossing.depth < std::numeric_limits<T>::max(); }
+
+    T cut_share(const Crossing<T>& crossing, const Vec3<T>& point, T depth, bool behind, CutShare share) const {
+        if (share == CutShare::edge) {
+            const HidingEdge<T>& edge = edges_[crossing.edge];
+            const T t = edge_cut_share(edge.a, edge.b, point, radius_);
+            if (edge.chained == HidingEdge<T>::none) return t;
+            const HidingEdge<T>& other = edges_[edge.chained];
+            if (!(std::max(other.a.z, other.b.z) < point.z)) return t;
+            return std::min(t, edge_cut_share(other.a, other.b, point, radius_));
+        }
+        return behind ? umbra_cut_share(crossing.silhouette_depth, crossing.depth, depth)
+                      : penumbra_cut_share(crossing.silhouette_depth, crossing.depth, depth);
+    }
+
+    /// What of a mesh lies before the light's plane.
+    Mesh<double> lit_part(const Mesh<double>& mesh) const {
+        Mesh<double> result;
+        for (const glm::uvec3& t : mesh.triangles) {
+            ConvexPolygon<Vec3<double>, 4> polygon;
+            for (int k = 0; k < 3; ++k) polygon.push(mesh.positions[t[k]]);
+            polygon = clip(
+                polygon, [&](const Vec3<double>& v) { return v.z - near_; }, [&](Vec3<double>& v) { v.z = near_; });
+            const auto first = static_cast<std::uint32_t>(result.positions.size());
+            for (std::uint32_t k = 0; k < polygon.count; ++k) {
+                result.positions.push_back(polygon.vertices[k]);
+                if (k >= 2) result.triangles.emplace_back(first, first + k - 1, first + k);
+            }
+        }
+        return weld(result);
+    }
+
+    /// Slopes around all that volumes may reach.
+    void look_at(const std::vector<Mesh<double>>& meshes, int resolution) {
+        Rect2<double> slopes = empty_rect<double>();
+        const double radius = static_cast<double>(radius_);
+        for (const Mesh<double>& mesh : meshes)
+            for (const Vec3<double>& p : mesh.positions)
+                for (const double way : {-radius, radius})
+                    slopes = extend(slopes, Vec2<double>((p.x + way) / p.z, (p.y + way) / p.z));
+        const Vec2<double> most(static_cast<double>(widest), static_cast<double>(widest));
+        slopes = intersect(slopes, {-most, most});
+        const Vec2<double> margin = (slopes.max - slopes.min) * (1.0 / resolution) + Vec2<double>(1e-9, 1e-9);
+        view_.slopes = {Vec2<T>(slopes.min - margin), Vec2<T>(slopes.max + margin)};
+        view_.resolution = resolution;
+    }
+
+    RasterVertex<double> seen(const Vec3<double>& p) const {
+        const Vec2<double> low(view_.slopes.min), size(extent(view_.slopes));
+        const double scale = static_cast<double>(view_.resolution);
+        return {(p.x - low.x * p.z) * (scale / size.x), (p.y - low.y * p.z) * (scale / size.y), p.z, p.z};
+    }
+    Vec3<double> at(int x, int y, double depth) const {
+        const Vec2<double> low(view_.slopes.min), size(extent(view_.slopes));
+        const double scale = 1.0 / static_cast<double>(view_.resolution);
+        return Vec3<double>(low.x + size.x * (x + 0.5) * scale, low.y + size.y * (y + 0.5) * scale, 1.0) * depth;
+    }
+    template <class Fragment>
+    void draw_triangle(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c, Fragment&& fragment) const {
+        rasterize(seen(a), seen(b), seen(c), view_.resolution, view_.resolution, 0.5 * near_, fragment);
+    }
+
+    void draw(const Mesh<double>& mesh, std::uint32_t number, VolumeSilhouette silhouette, double reach,
+              std::vector<Surface>& surfaces) {
+        const EdgeAdjacency adjacency = edge_adjacency(mesh);
+        const bool solid = is_closed(adjacency);
+        const Vec2<double> texel_size =
+            extent(Rect2<double>{Vec2<double>(view_.slopes.min), Vec2<double>(view_.slopes.max)}) *
+            (1.0 / static_cast<double>(view_.resolution));
+        for (const glm::uvec3& t : mesh.triangles) {
+            const Vec3<double>&a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+            const Vec3<double> normal = glm::cross(b - a, c - a);
+            draw_triangle(a, b, c, [&](int x, int y, double depth) {
+                // along the plane, depth is k / (n · slope)
+                const double facing = std::abs(glm::dot(normal, at(x, y, 1.0)));
+                const double change = (std::abs(normal.x) * texel_size.x + std::abs(normal.y) * texel_size.y) * depth;
+                const double slack = std::min(change, facing * 0.05 * depth) / std::max(facing, 1e-300);
+                surfaces[texel(x, y)].add(depth, slack, solid);
+            });
+        }
+        const double radius = static_cast<double>(radius_), far = 1e4 * (reach + radius);
+        const DiskLight<double> light{Vec3<double>(0.0, 0.0, 0.0), Vec3<double>(0.0, 0.0, 1.0),
+                                      silhouette == VolumeSilhouette::disk ? radius : 0.0};
+        const VolumeSilhouettes silhouettes = volume_silhouettes(mesh, adjacency, light, 1e-12 * reach);
+        EdgeNumbers numbers;
+        for (const std::vector<VolumeEdge>* edges : {&silhouettes.umbra, &silhouettes.penumbra, &silhouettes.looming})
+            for (const VolumeEdge& e : *edges)
+                if (numbers.try_emplace({e.from, e.to}, static_cast<std::uint32_t>(edges_.size())).second)
+                    edges_.push_back({Vec3<T>(mesh.positions[e.from]), Vec3<T>(mesh.positions[e.to]), number});
+        draw_faces(mesh, adjacency, silhouettes, numbers);
+        for (const VolumeKind kind : {VolumeKind::umbra, VolumeKind::penumbra})
+            for (const std::vector<VolumeSide<double>>& loop :
+                 volume_sides(mesh.positions, silhouettes, radius, kind, fan_step))
+                for (const VolumeSide<double>& side : loop)
+                    if (side.ridge && !side.crossed) draw(side, number, numbers, far);
+        const DiskLight<double> disk{light.center, light.normal, radius};
+        for (const VolumeEdge& edge : silhouettes.looming) {
+            const Vec3<double>&a = mesh.positions[edge.from], &b = mesh.positions[edge.to];
+            const Vec3<double> rim = extrusion_points(a, b, disk).penumbra;
+            draw({a, b, rim, rim, edge.from, edge.to, true, false, VolumeKind::penumbra}, number, numbers, far);
+        }
+    }
+
+    /// Silhouette faces: a ray that leaves a solid through one leaves the umbra there. What hides from beyond is the
+    /// chain of edges of which the faces lie between, as far as the next of either silhouette; such edges are chained.
+    void draw_faces(const Mesh<double>& mesh, const EdgeAdjacency& adjacency, const VolumeSilhouettes& silhouettes,
+                    const EdgeNumbers& numbers) {
+        constexpr std::uint32_t none = HidingEdge<T>::none;
+        std::vector<bool> is_some(mesh.triangles.size(), false);
+        for (const VolumeFace& face : silhouettes.faces) is_some[face.face] = true;
+        // for each face, the edge of the penumbra and of the umbra to which the faces between turn least
+        std::vector<std::array<std::uint32_t, 2>> nearest(mesh.triangles.size(), {none, none});
+        std::vector<std::vector<std::uint32_t>> neighbours(mesh.triangles.size());
+        for (const Edge& edge : adjacency.edges)
+            for (std::uint32_t i = 0; i < edge.count; ++i)
+                for (std::uint32_t k = 0; k < edge.count; ++k) {
+                    const std::uint32_t f = adjacency.faces[edge.first + i].face;
+                    const std::uint32_t g = adjacency.faces[edge.first + k].face;
+                    if (f != g && is_some[f] && is_some[g]) neighbours[f].push_back(g);
+                }
+        const auto normal = [&](std::uint32_t face) {
+            const glm::uvec3& t = mesh.triangles[face];
+            const Vec3<double>& a = mesh.positions[t.x];
+            return normalize_or(glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a), Vec3<double>(0, 0, 0));
+        };
+        for (std::size_t k = 0; k < 2; ++k) {
+            using Step = std::tuple<double, std::uint32_t, std::uint32_t>;  // turn so far, face, edge
+            std::priority_queue<Step, std::vector<Step>, std::greater<Step>> open;
+            for (const VolumeEdge& e : k == 0 ? silhouettes.penumbra : silhouettes.umbra)
+                for_faces_at(adjacency, e, [&](std::uint32_t face) {
+                    if (is_some[face]) open.emplace(0.0, face, numbers.at({e.from, e.to}));
+                });
+            while (!open.empty()) {
+                const auto [turn, face, edge] = open.top();
+                open.pop();
+                if (nearest[face][k] != none) continue;
+                nearest[face][k] = edge;
+                for (const std::uint32_t next : neighbours[face])
+                    if (nearest[next][k] == none)
+                        open.emplace(turn + 1.0 - glm::dot(normal(face), normal(next)), next, edge);
+            }
+        }
+        for (std::size_t k = 0; k < 2; ++k)
+            for (const VolumeEdge& e : k == 0 ? silhouettes.penumbra : silhouettes.umbra)
+                for_faces_at(adjacency, e, [&](std::uint32_t face) {
+                    HidingEdge<T>& edge = edges_[numbers.at({e.from, e.to})];
+                    if (is_some[face] && nearest[face][1 - k] != none && &edges_[nearest[face][1 - k]] != &edge)
+                        edge.chained = nearest[face][1 - k];
+                });
+        for (const VolumeFace& face : silhouettes.faces) {
+            const glm::uvec3& t = mesh.triangles[face.face];
+            const Vec3<double>&a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+            const double toward = -glm::dot(glm::cross(b - a, c - a), a) * (face.turned ? -1.0 : 1.0);
+            const std::uint32_t lit = nearest[face.face][0], dark = nearest[face.face][1];
+            const std::uint32_t number = lit != none ? lit : dark;
+            if (toward > 0.0 || number == none) continue;
+            const HidingEdge<T>& edge = edges_[number];
+            draw_triangle(a, b, c, [&](int x, int y, double depth) {
+                insert(umbra_, x, y, depth, std::min(depth, static_cast<double>(std::min(edge.a.z, edge.b.z))), number);
+            });
+        }
+    }
+    template <class Use>
+    static void for_faces_at(const EdgeAdjacency& adjacency, const VolumeEdge& e, Use&& use) {
+        const std::uint32_t a = std::min(e.from, e.to), b = std::max(e.from, e.to);
+        const auto edge = std::lower_bound(adjacency.edges.begin(), adjacency.edges.end(), std::make_pair(a, b),
+                                           [](const Edge& x, const std::pair<std::uint32_t, std::uint32_t>& y) {
+                                               return x.a != y.first ? x.a < y.first : x.b < y.second;
+                                           });
+        for (std::uint32_t i = 0; i < edge->count; ++i) use(adjacency.faces[edge->first + i].face);
+    }
+
+    /// From depths to those of the image, along a texel's ray.
+    double unit(int x, int y) const {
+        return view_.depth == DBufferDepth::euclidean ? glm::length(at(x, y, 1.0)) : 1.0;
+    }
+    void insert(std::vector<Crossing<T>>& layers, int x, int y, double depth, double silhouette_depth,
+                std::uint32_t edge) {
+        const double to_image = unit(x, y);
+        Crossing<T> crossing{static_cast<T>(depth * to_image), static_cast<T>(silhouette_depth * to_image), edge};
+        Crossing<T>* const kept = layers.data() + texel(x, y) * layer_count();
+        for (std::size_t k = 0; k < layer_count(); ++k) {
+            if (kept[k].edge == crossing.edge && kept[k].depth <= crossing.depth) return;  // once is enough
+            if (crossing.depth < kept[k].depth) std::swap(crossing, kept[k]);
+        }
+    }
+
+    void draw(const VolumeSide<double>& side, std::uint32_t mesh, const EdgeNumbers& numbers, double far) {
+        std::uint32_t number = 0;
+        if (side.is_fan()) {
+            number = static_cast<std::uint32_t>(edges_.size());
+            const std::array<Vec3<double>, 2> edge = side.hiding_edge();
+            edges_.push_back({Vec3<T>(edge[0]), Vec3<T>(edge[1]), mesh});
+        } else {
+            number = numbers.at({side.from, side.to});
+        }
+        std::vector<Crossing<T>>& layers = side.kind == VolumeKind::umbra ? umbra_ : penumbra_;
+        const auto fragment = [&](int x, int y, double depth) {
+            double silhouette_depth = side.a.z;
+            if (!side.is_fan()) {
+                const Vec3<double> along = side.b - side.a, ray = at(x, y, depth) - side.rim;
+                const Vec3<double> across = glm::cross(ray, along);
+                const double share = glm::dot(glm::cross(side.a - side.rim, along), across) / glm::dot(across, across);
+                const double low = std::min(side.a.z, side.b.z), high = std::max(side.a.z, side.b.z);
+                silhouette_depth = clamp(share * depth, low, high);
+            }
+            insert(layers, x, y, depth, silhouette_depth, number);
+        };
+        const Vec3<double> far_a = side.far_a(far), far_b = side.far_b(far);
+        if (!side.is_fan()) draw_triangle(side.b, side.a, far_a, fragment);
+        draw_triangle(side.b, far_a, far_b, fragment);
+    }
+
+    static constexpr double fan_step = 0.05;  // radians: an arc's triangle is off by 0.0003 r
+    DBufferView<T> view_{{Vec2<T>(T(0), T(0)), Vec2<T>(T(0), T(0))}, 0};
+    T radius_ = T(0);
+    int layers_ = 1;
+    double near_ = 0.0;
+    std::vector<T> casters_;
+    std::vector<Crossing<T>> umbra_, penumbra_;
+    std::vector<HidingEdge<T>> edges_;
+};
+
+}  // namespace penumbra

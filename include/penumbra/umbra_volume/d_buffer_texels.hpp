@@ -1,0 +1,54 @@
+// A D-buffer as textures, for the query in GLSL: shaders/penumbra/umbra_volume/d_buffer.glsl says what is where.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <penumbra/detail/error.hpp>
+#include <penumbra/image.hpp>
+#include <penumbra/umbra_volume/d_buffer.hpp>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// Two textures of 32-bit floats, RGBA, without filtering.
+struct DBufferTexels {
+    static constexpr int width = 1024;  ///< of `edges`
+    Image<glm::vec4> crossings, edges;
+};
+
+/// The texels of a D-buffer. PENUMBRA_UMBRA_VOLUME_LAYERS must be its number of layers; the query takes its view() and
+/// radius() as well. Empty for an empty one. Reports more than 2^23 edges, which floats cannot number.
+inline DBufferTexels d_buffer_texels(const DBuffer<float>& d_buffer) {
+    DBufferTexels result;
+    const std::vector<HidingEdge<float>>& edges = d_buffer.edges();
+    if (d_buffer.empty() || !detail::require(edges.size() <= std::size_t(1) << 23, [&] {
+            return "a D-buffer of " + std::to_string(edges.size()) + " edges is above 8388608";
+        }))
+        return result;
+    const int size = d_buffer.view().resolution, layers = d_buffer.layers();
+    result.crossings = Image<glm::vec4>(size, 2 * layers * size);
+    for (int layer = 0; layer < layers; ++layer)
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const auto put = [&](const Crossing<float>& c, int row) {
+                    result.crossings(x, y + row * size) =
+                        glm::vec4(c.depth, c.silhouette_depth, static_cast<float>(c.edge), d_buffer.caster(x, y));
+                };
+                put(d_buffer.umbra(x, y, layer), layer);
+                put(d_buffer.penumbra(x, y, layer), layers + layer);
+            }
+    const int count = static_cast<int>(edges.size()) * 2;
+    result.edges = Image<glm::vec4>(DBufferTexels::width, count / DBufferTexels::width + 1);
+    for (int i = 0; i < count; i += 2) {
+        const HidingEdge<float>& edge = edges[static_cast<std::size_t>(i / 2)];
+        const bool chained = edge.chained != HidingEdge<float>::none;
+        const int x = i % DBufferTexels::width, y = i / DBufferTexels::width;
+        result.edges(x, y) = glm::vec4(edge.a, static_cast<float>(edge.mesh));
+        result.edges(x + 1, y) = glm::vec4(edge.b, chained ? static_cast<float>(edge.chained) : -1.0F);
+    }
+    return result;
+}
+
+}  // namespace penumbra

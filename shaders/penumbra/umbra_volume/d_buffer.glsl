@@ -1,0 +1,180 @@
+// D-buffer of a disk light: how much of it a point sees, by the D-buffer and its edges as textures.
+//
+// The host makes both by d_buffer_texels(); or a renderer draws them: a texel (x, y) of layer l is texel
+// (x, y + l resolution) for umbrae, further down by layers * resolution for penumbrae, and has in
+//     .r  the depth of the crossing; above 3e38 where there is none
+//     .g  the depth of the edge where the tangent plane's ray through the crossing meets it
+//     .b  the edge's number
+//     .a  the depth beyond which a ray is blocked
+// An edge e is in texels 2 e and 2 e + 1 of `edges`, 1024 a row: a and the caster's number, b and the number of the edge
+// that is chained to it, or -1. Points come in light space, as penumbra_to_light gives them.
+//
+// Options: PENUMBRA_UMBRA_VOLUME_LAYERS      edges on each side of a caster, 1 or 2
+//          PENUMBRA_UMBRA_VOLUME_VISIBILITY  V(t): one of PENUMBRA_CUT_VISIBILITY_...
+//          PENUMBRA_UMBRA_VOLUME_SHARE       where t comes from: one of PENUMBRA_CUT_SHARE_...
+//          PENUMBRA_UMBRA_VOLUME_DEPTH       what depths are: one of PENUMBRA_D_BUFFER_DEPTH_...
+// Error:   that of the method; from the C++ 1e-6, 2e-6 by the square root, where depths are distances from the centre
+//          and t comes from them a rounding of these over the depth behind the edge
+// Source:  the umbra and penumbra volume paper for circular lights; second layer, edges and rules for two cuts are ours
+// C++:     include/penumbra/umbra_volume/d_buffer.hpp
+#ifndef PENUMBRA_UMBRA_VOLUME_D_BUFFER_GLSL
+#define PENUMBRA_UMBRA_VOLUME_D_BUFFER_GLSL
+
+#include "../geometry.glsl"
+#include "cut_share.glsl"
+#include "disk_visibility.glsl"
+
+#define PENUMBRA_CUT_VISIBILITY_EXACT 0
+#define PENUMBRA_CUT_VISIBILITY_CUBIC 1
+#define PENUMBRA_CUT_VISIBILITY_SQUARE_ROOT 2
+
+#define PENUMBRA_CUT_SHARE_EDGE 0
+#define PENUMBRA_CUT_SHARE_DEPTHS 1
+
+// From the light's plane, or from its centre.
+#define PENUMBRA_D_BUFFER_DEPTH_LIGHT_PLANE 0
+#define PENUMBRA_D_BUFFER_DEPTH_EUCLIDEAN 1
+
+#ifndef PENUMBRA_UMBRA_VOLUME_LAYERS
+#define PENUMBRA_UMBRA_VOLUME_LAYERS 2
+#endif
+#ifndef PENUMBRA_UMBRA_VOLUME_VISIBILITY
+#define PENUMBRA_UMBRA_VOLUME_VISIBILITY PENUMBRA_CUT_VISIBILITY_EXACT
+#endif
+#ifndef PENUMBRA_UMBRA_VOLUME_SHARE
+#define PENUMBRA_UMBRA_VOLUME_SHARE PENUMBRA_CUT_SHARE_EDGE
+#endif
+#ifndef PENUMBRA_UMBRA_VOLUME_DEPTH
+#define PENUMBRA_UMBRA_VOLUME_DEPTH PENUMBRA_D_BUFFER_DEPTH_LIGHT_PLANE
+#endif
+
+// The texels of an image from the light's centre: `slopes` x / z and y / z of its borders.
+struct penumbra_DBufferView {
+    penumbra_Rect2 slopes;
+    int resolution;
+};
+
+// A straight edge that hides part of the light, its caster on the left as seen from the light. Light space. `chained` is
+// the number of the edge beyond the silhouette faces at this one, or -1.
+struct penumbra_HidingEdge {
+    vec3 a, b;
+    int mesh, chained;
+};
+
+// Two edges as a point sees them: the angle between their visible sides, and whether each lies where the other hides.
+struct penumbra_TwoCuts {
+    float angle;
+    bool convex;
+};
+
+// A point's depth, as the image has depths.
+float penumbra_depth_of(vec3 point_ls) {
+#if PENUMBRA_UMBRA_VOLUME_DEPTH == PENUMBRA_D_BUFFER_DEPTH_EUCLIDEAN
+    return penumbra_safe_length(point_ls);
+#else
+    return point_ls.z;
+#endif
+}
+
+// The texel that a point in light space, at depth > 0, lies in.
+vec2 penumbra_to_texel(penumbra_DBufferView view, vec3 point_ls) {
+    vec2 size = penumbra_extent(view.slopes);
+    vec2 slope = vec2(point_ls.x / point_ls.z, point_ls.y / point_ls.z);
+    return vec2((slope.x - view.slopes.min.x) / size.x, (slope.y - view.slopes.min.y) / size.y) *
+           float(view.resolution);
+}
+
+// How two edges lie to each other from `point`, all in light space. Edges of different casters never hide as one.
+penumbra_TwoCuts penumbra_two_cuts(penumbra_HidingEdge first, penumbra_HidingEdge second, vec3 point) {
+    vec3 zero = vec3(0.0f, 0.0f, 0.0f);
+    vec3 n1 = penumbra_normalize_or(cross(first.a - point, first.b - first.a), zero);
+    vec3 n2 = penumbra_normalize_or(cross(second.a - point, second.b - second.a), zero);
+    vec3 way1 = penumbra_normalize_or(vec3(n1.x, n1.y, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+    vec3 way2 = penumbra_normalize_or(vec3(n2.x, n2.y, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+    // from the shorter of two chords: acos of a cosine loses digits at both ends, and may be that of more than 1
+    bool obtuse = dot(way1, way2) < 0.0f;
+    vec3 chord = obtuse ? way1 + way2 : way1 - way2;
+    float turn = penumbra_half_arc(0.25f * dot(chord, chord));
+    float hidden1 = dot(n1, (second.a + second.b) * 0.5f - point);
+    float hidden2 = dot(n2, (first.a + first.b) * 0.5f - point);
+    penumbra_TwoCuts cuts;
+    cuts.angle = obtuse ? PENUMBRA_DISK_PI - turn : turn;
+    cuts.convex = first.mesh == second.mesh && hidden1 >= 0.0f && hidden2 >= 0.0f;
+    return cuts;
+}
+
+// V(t) by one of its forms, PENUMBRA_CUT_VISIBILITY_...
+float penumbra_cut_visibility(float t, int form) {
+    if (form == PENUMBRA_CUT_VISIBILITY_EXACT) return penumbra_disk_visibility(t);
+    return form == PENUMBRA_CUT_VISIBILITY_CUBIC ? penumbra_disk_visibility_cubic(t) : penumbra_disk_visibility_sqrt(t);
+}
+
+penumbra_HidingEdge penumbra_hiding_edge(highp sampler2D edges, int number) {
+    int texel = 2 * number;
+    vec4 first = texelFetch(edges, ivec2(texel & 1023, texel >> 10), 0);
+    vec4 second = texelFetch(edges, ivec2((texel + 1) & 1023, texel >> 10), 0);
+    penumbra_HidingEdge edge;
+    edge.a = vec3(first.x, first.y, first.z);
+    edge.b = vec3(second.x, second.y, second.z);
+    edge.mesh = int(first.w);
+    edge.chained = int(second.w);
+    return edge;
+}
+
+// t past a crossing and its edge.
+float penumbra_cut_share(highp sampler2D edges, vec4 crossing, penumbra_HidingEdge edge, vec3 point, float depth,
+                         bool behind, float radius) {
+#if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
+    float t = penumbra_edge_cut_share(edge.a, edge.b, point, radius);
+    if (edge.chained < 0) return t;
+    penumbra_HidingEdge other = penumbra_hiding_edge(edges, edge.chained);
+    if (!(max(other.a.z, other.b.z) < point.z)) return t;
+    return min(t, penumbra_edge_cut_share(other.a, other.b, point, radius));
+#else
+    return behind ? penumbra_umbra_cut_share(crossing.y, crossing.x, depth)
+                  : penumbra_penumbra_cut_share(crossing.y, crossing.x, depth);
+#endif
+}
+
+// The fraction of the light that a point in light space sees past one edge or two. `radius` is the light's. Exactly 1
+// before the penumbra and outside of the image, exactly 0 within the umbra; 1 on and behind the light's plane, and for
+// points that are not finite.
+float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penumbra_DBufferView view, float radius,
+                          vec3 point) {
+    if (!(point.z > 0.0f) || !penumbra_is_finite(point) || !(view.slopes.min.x < view.slopes.max.x)) return 1.0f;
+    vec2 at = penumbra_to_texel(view, point);
+    float size = float(view.resolution);
+    if (!(at.x >= 0.0f && at.x < size && at.y >= 0.0f && at.y < size)) return 1.0f;
+    ivec2 texel = ivec2(int(at.x), int(at.y));
+    vec4 first = texelFetch(crossings, texel, 0);
+    float depth = penumbra_depth_of(point);
+    bool behind = depth > first.w;
+    if (!behind) texel.y += PENUMBRA_UMBRA_VOLUME_LAYERS * view.resolution;
+    if (!behind) first = texelFetch(crossings, texel, 0);
+    // what an edge leaves that was not crossed yet: nothing of the light, or all
+    float uncrossed = behind ? 0.0f : 1.0f;
+    if (!(first.x < depth)) return uncrossed;
+    penumbra_HidingEdge edge1 = penumbra_hiding_edge(edges, int(first.z));
+    float t1 = penumbra_cut_share(edges, first, edge1, point, depth, behind, radius);
+    float v1 = penumbra_cut_visibility(t1, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
+#if PENUMBRA_UMBRA_VOLUME_LAYERS < 2
+    return v1;
+#else
+    vec4 second = texelFetch(crossings, ivec2(texel.x, texel.y + view.resolution), 0);
+    if (!(second.x < 3.0e38f) || !(second.y < depth)) return v1;
+    penumbra_HidingEdge edge2 = penumbra_hiding_edge(edges, int(second.z));
+    bool crossed = second.x < depth;
+    float t2 = uncrossed;
+    if (crossed) t2 = penumbra_cut_share(edges, second, edge2, point, depth, behind, radius);
+    penumbra_TwoCuts cuts = penumbra_two_cuts(edge1, edge2, point);
+#if PENUMBRA_UMBRA_VOLUME_VISIBILITY == PENUMBRA_CUT_VISIBILITY_EXACT
+    return cuts.convex ? penumbra_disk_visibility_between(t1, t2, cuts.angle)
+                       : penumbra_disk_visibility(t1, t2, cuts.angle);
+#else
+    float v2 = penumbra_cut_visibility(t2, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
+    return cuts.convex ? max(v1, v2) : min(v1, v2);
+#endif
+#endif
+}
+
+#endif
