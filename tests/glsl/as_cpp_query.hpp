@@ -13,6 +13,7 @@
 #include "../../shaders/penumbra/penumbra_wedge/shadow.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/wedge.glsl"
+#include "../../shaders/penumbra/umbra_volume/disk_coverage.glsl"
 #include "../../shaders/penumbra/umbra_volume/disk_visibility.glsl"
 #include "../../shaders/penumbra/umbra_volume/extrusion.glsl"
 #pragma GCC diagnostic pop
@@ -74,6 +75,7 @@ struct WedgeQuery {
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_DISK_COVERAGE_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_DISK_VISIBILITY_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_EXTRUSION_GLSL
 #undef PENUMBRA_OCCLUSION_TEXTURE_BIAS

@@ -95,7 +95,7 @@ struct DiskUnits {
 template <class T, class Root>
 inline T left_of(T x, const DiskUnits<T>& disk, Root root) {
     const T rest = std::abs(T(0.5) - std::abs(x) * disk.half);
-    return std::copysign(T(0.5) - rest * (root(rest) * segment_polynomial(rest)), x);
+    return T(2) * half_sign(x) * (T(0.5) - rest * (root(rest) * segment_polynomial(rest)));
 }
 
 /// penumbra::disk_edge_coverage without vectors.

@@ -1,6 +1,7 @@
 // Twins of umbra_volume.
 #pragma once
 
+#include <penumbra/umbra_volume/disk_coverage.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>
 #include <penumbra/umbra_volume/extrusion.hpp>
 
@@ -33,6 +34,18 @@ inline void disk_and_edge(float* in) {
 }
 inline float disk_size(const float* in) { return 1.0F + largest(in, 3) + in[6]; }
 
+/// Two ends and a radius, now and then 0. Most ends within 2 radii of the centre along either axis, many on the rim;
+/// one in four far away.
+inline void edge_and_disk(float* in) {
+    const float chosen = in[4];
+    in[4] = chosen == 0.0F ? 0.0F : 0.0625F + 4.0F * share(chosen);
+    for (int k = 0; k < 4; ++k) {
+        const bool far = chosen < 0.0F && k / 2 == (chosen < -1.0F ? 1 : 0);
+        in[k] = far ? moderate(in[k]) : 2.0F * in[4] * std::copysign(share(in[k]), in[k]);
+    }
+}
+inline float disk_area(const float* in) { return pi<float> * in[4] * in[4]; }
+
 inline void add_umbra_volume(std::vector<Function>& list) {
     list.push_back({
         "disk_visibility, _cubic, _sqrt", "umbra_volume/disk_visibility", 1, 3,
@@ -51,6 +64,12 @@ inline void add_umbra_volume(std::vector<Function>& list) {
                 o[0] = disk_visibility(i[0], i[1], i[2]), o[1] = disk_visibility_between(i[0], i[1], i[2]);
             },
             cuts, 8, whole_disk
+    });
+    list.push_back({
+        "disk_edge_coverage", "umbra_volume/disk_coverage", 5, 1,
+            GLSL(O(0) = penumbra_disk_edge_coverage(V2(0), V2(2), I(4));),
+            [](const float* i, float* o) { o[0] = disk_edge_coverage(v2(i), v2(i + 2), i[4]); }, edge_and_disk, 8,
+            disk_area
     });
     list.push_back({
         "extrusion_points", "umbra_volume/extrusion", 13, 14,
