@@ -74,6 +74,17 @@
     template T disk_visibility_sqrt(T);                                                                            \
     template T disk_visibility(T, T, T);                                                                           \
     template T disk_visibility_between(T, T, T);                                                                   \
+    template T disk_edge_coverage(const Vec2<T>&, const Vec2<T>&, T);                                              \
+    template NearFarPoints<T> near_far_points(const Vec3<T>&, const DiskLight<T>&);                                \
+    template DiskSight disk_sight(const Vec3<T>&, const Vec3<T>&, const DiskLight<T>&, T);                         \
+    template VolumeSilhouettes volume_silhouettes(const Mesh<T>&, const DiskLight<T>&);                            \
+    template Mesh<T> volume_mesh(const Mesh<T>&, const VolumeSilhouettes&, T, VolumeKind, T, T);                   \
+    template std::vector<ConvexPolygon<Vec3<T>, 16>> trimmed_umbra(const std::vector<VolumeSide<T>>&, T);          \
+    template T edge_cut_share(const Vec3<T>&, const Vec3<T>&, const Vec3<T>&, T);                                  \
+    template T penumbra_cut_share(T, T, T);                                                                        \
+    template T umbra_cut_share(T, T, T);                                                                           \
+    template class DBuffer<T>;                                                                                     \
+    template class UmbraVolumeShadow<T>;                                                                           \
     template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const LightFrame<T>&, T);         \
     template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const DiskLight<T>&);
 

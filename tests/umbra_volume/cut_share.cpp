@@ -15,14 +15,15 @@ namespace {
 /// From where the edge's ends land on the light's plane: the signed distance of their line from the centre. The visible
 /// side is on its right, seen from the light, so on its left on the plane as the point sees it.
 long double landed_share(const Vec3<double>& v1, const Vec3<double>& v2, const Vec3<double>& x, double radius) {
-    const auto land = [&](const Vec3<double>& v) {
-        const long double share = static_cast<long double>(x.z) / (static_cast<long double>(x.z) - v.z);
-        return glm::vec<2, long double, glm::defaultp>(x.x + (v.x - static_cast<long double>(x.x)) * share,
-                                                       x.y + (v.y - static_cast<long double>(x.y)) * share);
+    using Exact3 = glm::vec<3, long double, glm::defaultp>;
+    using Exact2 = glm::vec<2, long double, glm::defaultp>;
+    const Exact3 point(x);
+    const auto land = [&](const Exact3& v) {
+        return Exact2(point) + (Exact2(v) - Exact2(point)) * (point.z / (point.z - v.z));
     };
-    const auto a = land(v1), b = land(v2), d = b - a;
+    const Exact2 a = land(Exact3(v1)), b = land(Exact3(v2)), d = b - a;
     const long double distance = (d.x * a.y - d.y * a.x) / std::hypot(d.x, d.y);
-    return std::clamp((1.0L - distance / radius) / 2.0L, 0.0L, 1.0L);
+    return std::clamp((1.0L - distance / static_cast<long double>(radius)) / 2.0L, 0.0L, 1.0L);
 }
 
 }  // namespace

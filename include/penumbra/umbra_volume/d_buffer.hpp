@@ -50,6 +50,7 @@ struct HidingEdge {
     Vec3<T> a, b;
     std::uint32_t mesh;
     std::uint32_t chained = none;  ///< the edge beyond the silhouette faces at this one, which hides as well
+    std::uint32_t corner = none;   ///< of a corner, whose first edge this is: its second
 };
 
 /// The texels of an image from the light's centre: direction (x / z, y / z) in light space to texels.
@@ -120,8 +121,7 @@ class DBuffer {
         double reach = 0.0;
         std::vector<Mesh<double>> meshes;
         for (const Mesh<T>& mesh : casters) {
-            Mesh<double> mesh_ls;
-            mesh_ls.triangles = mesh.triangles;
+            Mesh<double> mesh_ls{{}, mesh.triangles};
             for (const Vec3<T>& p : mesh.positions) {
                 mesh_ls.positions.push_back(exact.to_light(Vec3<double>(p)));
                 reach = std::max(reach, detail::largest_component(mesh_ls.positions.back()));
@@ -140,7 +140,7 @@ class DBuffer {
         for (int y = 0; y < resolution; ++y)
             for (int x = 0; x < resolution; ++x) {
                 const double between = surfaces[texel(x, y)].between();
-                constexpr double none = std::numeric_limits<T>::max();
+                constexpr auto none = static_cast<double>(std::numeric_limits<T>::max());
                 casters_[texel(x, y)] = static_cast<T>(between < none ? between * unit(x, y) : none);
             }
     }
@@ -178,17 +178,21 @@ class DBuffer {
         // what an edge leaves that was not crossed yet: nothing of the light, or all
         const T uncrossed = behind ? T(0) : T(1);
         if (!(crossings[0].depth < depth)) return uncrossed;
+        const HidingEdge<T>& first = edges_[crossings[0].edge];
         const T t1 = cut_share(crossings[0], point, depth, behind, share);
+        if (share == CutShare::edge && first.corner != HidingEdge<T>::none) {
+            const HidingEdge<T>& second = edges_[first.corner];
+            return past_two(first, second, t1, share_of(second, point), point, form);
+        }
         const T v1 = cut_visibility(t1, form);
         if (layers_ < 2 || !has_edge(crossings[1]) || !(crossings[1].silhouette_depth < depth)) return v1;
+        const HidingEdge<T>& second = other_edge(crossings[1], first);
         const bool crossed = crossings[1].depth < depth;
-        const HidingEdge<T>&first = edges_[crossings[0].edge], &second = edges_[crossings[1].edge];
-        const T t2 = crossed ? cut_share(crossings[1], point, depth, behind, share) : uncrossed;
-        const TwoCuts<T> cuts = two_cuts(first, second, point);
-        if (form == CutVisibility::exact)
-            return cuts.convex ? disk_visibility_between(t1, t2, cuts.angle) : disk_visibility(t1, t2, cuts.angle);
-        const T v2 = cut_visibility(t2, form);
-        return cuts.convex ? std::max(v1, v2) : std::min(v1, v2);
+        if (!crossed && first.mesh == second.mesh) return v1;  // where one caster ends, its first edge says
+        const T t2 = !crossed                  ? uncrossed
+                     : share == CutShare::edge ? share_of(second, point)
+                                               : cut_share(crossings[1], point, depth, behind, share);
+        return past_two(first, second, t1, t2, point, form);
     }
 
   private:
@@ -205,7 +209,7 @@ class DBuffer {
                 second = std::min(second, depth);
         }
         double between() const {
-            constexpr double none = std::numeric_limits<T>::max();
+            constexpr auto none = static_cast<double>(std::numeric_limits<T>::max());
             if (!(first < none)) return none;
             return solid && second < none ? 0.5 * (first + second) : first + slack;
         }
@@ -219,17 +223,31 @@ class DBuffer {
     }
     static bool has_edge(const Crossing<T>& crossing) { return crossing.depth < std::numeric_limits<T>::max(); }
 
+    T share_of(const HidingEdge<T>& edge, const Vec3<T>& point) const {
+        const T t = edge_cut_share(edge.a, edge.b, point, radius_);
+        if (edge.chained == HidingEdge<T>::none) return t;
+        const HidingEdge<T>& other = edges_[edge.chained];
+        if (!(std::max(other.a.z, other.b.z) < point.z)) return t;
+        return std::min(t, edge_cut_share(other.a, other.b, point, radius_));
+    }
     T cut_share(const Crossing<T>& crossing, const Vec3<T>& point, T depth, bool behind, CutShare share) const {
-        if (share == CutShare::edge) {
-            const HidingEdge<T>& edge = edges_[crossing.edge];
-            const T t = edge_cut_share(edge.a, edge.b, point, radius_);
-            if (edge.chained == HidingEdge<T>::none) return t;
-            const HidingEdge<T>& other = edges_[edge.chained];
-            if (!(std::max(other.a.z, other.b.z) < point.z)) return t;
-            return std::min(t, edge_cut_share(other.a, other.b, point, radius_));
-        }
+        if (share == CutShare::edge) return share_of(edges_[crossing.edge], point);
         return behind ? umbra_cut_share(crossing.silhouette_depth, crossing.depth, depth)
                       : penumbra_cut_share(crossing.silhouette_depth, crossing.depth, depth);
+    }
+    /// A crossing's edge; of a corner that `first` is at, the other one.
+    const HidingEdge<T>& other_edge(const Crossing<T>& crossing, const HidingEdge<T>& first) const {
+        const HidingEdge<T>& edge = edges_[crossing.edge];
+        const bool is_first = edge.a == first.a && edge.b == first.b;
+        return is_first && edge.corner != HidingEdge<T>::none ? edges_[edge.corner] : edge;
+    }
+    static T past_two(const HidingEdge<T>& first, const HidingEdge<T>& second, T t1, T t2, const Vec3<T>& point,
+                      CutVisibility form) {
+        const TwoCuts<T> cuts = two_cuts(first, second, point);
+        if (form == CutVisibility::exact)
+            return cuts.convex ? disk_visibility_between(t1, t2, cuts.angle) : disk_visibility(t1, t2, cuts.angle);
+        const T v1 = cut_visibility(t1, form), v2 = cut_visibility(t2, form);
+        return cuts.convex ? std::max(v1, v2) : std::min(v1, v2);
     }
 
     /// What of a mesh lies before the light's plane.
@@ -310,13 +328,13 @@ class DBuffer {
         for (const VolumeKind kind : {VolumeKind::umbra, VolumeKind::penumbra})
             for (const std::vector<VolumeSide<double>>& loop :
                  volume_sides(mesh.positions, silhouettes, radius, kind, fan_step))
-                for (const VolumeSide<double>& side : loop)
-                    if (side.ridge && !side.crossed) draw(side, number, numbers, far);
+                draw(loop, number, numbers, far);
         const DiskLight<double> disk{light.center, light.normal, radius};
         for (const VolumeEdge& edge : silhouettes.looming) {
             const Vec3<double>&a = mesh.positions[edge.from], &b = mesh.positions[edge.to];
             const Vec3<double> rim = extrusion_points(a, b, disk).penumbra;
-            draw({a, b, rim, rim, edge.from, edge.to, true, false, VolumeKind::penumbra}, number, numbers, far);
+            draw({a, b, rim, rim, edge.from, edge.to, true, false, VolumeKind::penumbra},
+                 numbers.at({edge.from, edge.to}), far);
         }
     }
 
@@ -404,15 +422,40 @@ class DBuffer {
         }
     }
 
-    void draw(const VolumeSide<double>& side, std::uint32_t mesh, const EdgeNumbers& numbers, double far) {
-        std::uint32_t number = 0;
-        if (side.is_fan()) {
-            number = static_cast<std::uint32_t>(edges_.size());
-            const std::array<Vec3<double>, 2> edge = side.hiding_edge();
-            edges_.push_back({Vec3<T>(edge[0]), Vec3<T>(edge[1]), mesh});
-        } else {
-            number = numbers.at({side.from, side.to});
+    /// Quads with their edges; fans with the corner between two, at a tip with the tangent of their arc.
+    void draw(const std::vector<VolumeSide<double>>& loop, std::uint32_t mesh, const EdgeNumbers& numbers, double far) {
+        const std::size_t count = loop.size();
+        const auto is_fan = [](const VolumeSide<double>& side) { return side.is_fan(); };
+        const bool tip = std::all_of(loop.begin(), loop.end(), is_fan);
+        std::uint32_t corner = HidingEdge<T>::none;  // of the fan that is being drawn
+        for (std::size_t i = 0; i < count; ++i) {
+            const VolumeSide<double>& side = loop[i];
+            if (!side.is_fan()) {
+                corner = HidingEdge<T>::none;
+                if (side.ridge) draw(side, numbers.at({side.from, side.to}), far);
+                continue;
+            }
+            if (!side.ridge || side.crossed) continue;
+            if (tip) {
+                const std::array<Vec3<double>, 2> edge = side.hiding_edge();
+                edges_.push_back({Vec3<T>(edge[0]), Vec3<T>(edge[1]), mesh});
+                draw(side, static_cast<std::uint32_t>(edges_.size() - 1), far);
+                continue;
+            }
+            if (corner == HidingEdge<T>::none) {
+                std::size_t before = i, after = i;
+                while (loop[before].is_fan()) before = (before + count - 1) % count;
+                while (loop[after].is_fan()) after = (after + 1) % count;
+                HidingEdge<T> edge = edges_[numbers.at({loop[before].from, loop[before].to})];
+                edge.corner = numbers.at({loop[after].from, loop[after].to});
+                corner = static_cast<std::uint32_t>(edges_.size());
+                edges_.push_back(edge);
+            }
+            draw(side, corner, far);
         }
+    }
+
+    void draw(const VolumeSide<double>& side, std::uint32_t number, double far) {
         std::vector<Crossing<T>>& layers = side.kind == VolumeKind::umbra ? umbra_ : penumbra_;
         const auto fragment = [&](int x, int y, double depth) {
             double silhouette_depth = side.a.z;

@@ -19,12 +19,12 @@ struct DBufferTexels {
 };
 
 /// The texels of a D-buffer. PENUMBRA_UMBRA_VOLUME_LAYERS must be its number of layers; the query takes its view() and
-/// radius() as well. Empty for an empty one. Reports more than 2^23 edges, which floats cannot number.
+/// radius() as well. Empty for an empty one. Reports more than 2^22 edges, which floats cannot number.
 inline DBufferTexels d_buffer_texels(const DBuffer<float>& d_buffer) {
     DBufferTexels result;
     const std::vector<HidingEdge<float>>& edges = d_buffer.edges();
-    if (d_buffer.empty() || !detail::require(edges.size() <= std::size_t(1) << 23, [&] {
-            return "a D-buffer of " + std::to_string(edges.size()) + " edges is above 8388608";
+    if (d_buffer.empty() || !detail::require(edges.size() <= std::size_t(1) << 22, [&] {
+            return "a D-buffer of " + std::to_string(edges.size()) + " edges is above 4194304";
         }))
         return result;
     const int size = d_buffer.view().resolution, layers = d_buffer.layers();
@@ -39,14 +39,17 @@ inline DBufferTexels d_buffer_texels(const DBuffer<float>& d_buffer) {
                 put(d_buffer.umbra(x, y, layer), layer);
                 put(d_buffer.penumbra(x, y, layer), layers + layer);
             }
-    const int count = static_cast<int>(edges.size()) * 2;
+    const int count = static_cast<int>(edges.size()) * 4;
     result.edges = Image<glm::vec4>(DBufferTexels::width, count / DBufferTexels::width + 1);
-    for (int i = 0; i < count; i += 2) {
-        const HidingEdge<float>& edge = edges[static_cast<std::size_t>(i / 2)];
-        const bool chained = edge.chained != HidingEdge<float>::none;
+    const auto number = [](std::uint32_t edge) {
+        return edge == HidingEdge<float>::none ? -1.0F : static_cast<float>(edge);
+    };
+    for (int i = 0; i < count; i += 4) {
+        const HidingEdge<float>& edge = edges[static_cast<std::size_t>(i / 4)];
         const int x = i % DBufferTexels::width, y = i / DBufferTexels::width;
         result.edges(x, y) = glm::vec4(edge.a, static_cast<float>(edge.mesh));
-        result.edges(x + 1, y) = glm::vec4(edge.b, chained ? static_cast<float>(edge.chained) : -1.0F);
+        result.edges(x + 1, y) = glm::vec4(edge.b, number(edge.chained));
+        result.edges(x + 2, y) = glm::vec4(number(edge.corner), 0.0F, 0.0F, 0.0F);
     }
     return result;
 }

@@ -6,8 +6,8 @@
 //     .g  the depth of the edge where the tangent plane's ray through the crossing meets it
 //     .b  the edge's number
 //     .a  the depth beyond which a ray is blocked
-// An edge e is in texels 2 e and 2 e + 1 of `edges`, 1024 a row: a and the caster's number, b and the number of the edge
-// that is chained to it, or -1. Points come in light space, as penumbra_to_light gives them.
+// An edge e is in texels 4 e to 4 e + 2 of `edges`, 1024 a row: a and the caster's number; b and the number of the edge
+// that is chained to it, or -1; in .r, of a corner whose first edge this is, the number of the second, or -1. Points come in light space, as penumbra_to_light gives them.
 //
 // Options: PENUMBRA_UMBRA_VOLUME_LAYERS      edges on each side of a caster, 1 or 2
 //          PENUMBRA_UMBRA_VOLUME_VISIBILITY  V(t): one of PENUMBRA_CUT_VISIBILITY_...
@@ -55,10 +55,11 @@ struct penumbra_DBufferView {
 };
 
 // A straight edge that hides part of the light, its caster on the left as seen from the light. Light space. `chained` is
-// the number of the edge beyond the silhouette faces at this one, or -1.
+// the number of the edge beyond the silhouette faces at this one, or -1; `corner`, of a corner whose first edge this is,
+// that of its second.
 struct penumbra_HidingEdge {
     vec3 a, b;
-    int mesh, chained;
+    int mesh, chained, corner;
 };
 
 // Two edges as a point sees them: the angle between their visible sides, and whether each lies where the other hides.
@@ -110,29 +111,48 @@ float penumbra_cut_visibility(float t, int form) {
 }
 
 penumbra_HidingEdge penumbra_hiding_edge(highp sampler2D edges, int number) {
-    int texel = 2 * number;
-    vec4 first = texelFetch(edges, ivec2(texel & 1023, texel >> 10), 0);
-    vec4 second = texelFetch(edges, ivec2((texel + 1) & 1023, texel >> 10), 0);
+    ivec2 texel = ivec2((4 * number) & 1023, (4 * number) >> 10);
+    vec4 first = texelFetch(edges, texel, 0);
+    vec4 second = texelFetch(edges, ivec2(texel.x + 1, texel.y), 0);
     penumbra_HidingEdge edge;
-    edge.a = vec3(first.x, first.y, first.z);
-    edge.b = vec3(second.x, second.y, second.z);
+    edge.a = first.xyz;
+    edge.b = second.xyz;
     edge.mesh = int(first.w);
     edge.chained = int(second.w);
+    edge.corner = int(texelFetch(edges, ivec2(texel.x + 2, texel.y), 0).x);
     return edge;
+}
+
+// t of an edge and of what is chained to it.
+float penumbra_share_of(highp sampler2D edges, penumbra_HidingEdge edge, vec3 point, float radius) {
+    float t = penumbra_edge_cut_share(edge.a, edge.b, point, radius);
+    if (edge.chained < 0) return t;
+    penumbra_HidingEdge other = penumbra_hiding_edge(edges, edge.chained);
+    if (!(max(other.a.z, other.b.z) < point.z)) return t;
+    return min(t, penumbra_edge_cut_share(other.a, other.b, point, radius));
 }
 
 // t past a crossing and its edge.
 float penumbra_cut_share(highp sampler2D edges, vec4 crossing, penumbra_HidingEdge edge, vec3 point, float depth,
                          bool behind, float radius) {
 #if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
-    float t = penumbra_edge_cut_share(edge.a, edge.b, point, radius);
-    if (edge.chained < 0) return t;
-    penumbra_HidingEdge other = penumbra_hiding_edge(edges, edge.chained);
-    if (!(max(other.a.z, other.b.z) < point.z)) return t;
-    return min(t, penumbra_edge_cut_share(other.a, other.b, point, radius));
+    return penumbra_share_of(edges, edge, point, radius);
 #else
     return behind ? penumbra_umbra_cut_share(crossing.y, crossing.x, depth)
                   : penumbra_penumbra_cut_share(crossing.y, crossing.x, depth);
+#endif
+}
+
+// What two edges leave.
+float penumbra_past_two(penumbra_HidingEdge first, penumbra_HidingEdge second, float t1, float t2, vec3 point) {
+    penumbra_TwoCuts cuts = penumbra_two_cuts(first, second, point);
+#if PENUMBRA_UMBRA_VOLUME_VISIBILITY == PENUMBRA_CUT_VISIBILITY_EXACT
+    return cuts.convex ? penumbra_disk_visibility_between(t1, t2, cuts.angle)
+                       : penumbra_disk_visibility(t1, t2, cuts.angle);
+#else
+    float v1 = penumbra_cut_visibility(t1, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
+    float v2 = penumbra_cut_visibility(t2, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
+    return cuts.convex ? max(v1, v2) : min(v1, v2);
 #endif
 }
 
@@ -156,6 +176,12 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
     if (!(first.x < depth)) return uncrossed;
     penumbra_HidingEdge edge1 = penumbra_hiding_edge(edges, int(first.z));
     float t1 = penumbra_cut_share(edges, first, edge1, point, depth, behind, radius);
+#if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
+    if (edge1.corner >= 0) {
+        penumbra_HidingEdge beyond = penumbra_hiding_edge(edges, edge1.corner);
+        return penumbra_past_two(edge1, beyond, t1, penumbra_share_of(edges, beyond, point, radius), point);
+    }
+#endif
     float v1 = penumbra_cut_visibility(t1, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
 #if PENUMBRA_UMBRA_VOLUME_LAYERS < 2
     return v1;
@@ -163,17 +189,17 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
     vec4 second = texelFetch(crossings, ivec2(texel.x, texel.y + view.resolution), 0);
     if (!(second.x < 3.0e38f) || !(second.y < depth)) return v1;
     penumbra_HidingEdge edge2 = penumbra_hiding_edge(edges, int(second.z));
+    if (edge2.corner >= 0 && edge2.a == edge1.a && edge2.b == edge1.b)
+        edge2 = penumbra_hiding_edge(edges, edge2.corner);
     bool crossed = second.x < depth;
+    if (!crossed && edge1.mesh == edge2.mesh) return v1;
     float t2 = uncrossed;
-    if (crossed) t2 = penumbra_cut_share(edges, second, edge2, point, depth, behind, radius);
-    penumbra_TwoCuts cuts = penumbra_two_cuts(edge1, edge2, point);
-#if PENUMBRA_UMBRA_VOLUME_VISIBILITY == PENUMBRA_CUT_VISIBILITY_EXACT
-    return cuts.convex ? penumbra_disk_visibility_between(t1, t2, cuts.angle)
-                       : penumbra_disk_visibility(t1, t2, cuts.angle);
+#if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
+    if (crossed) t2 = penumbra_share_of(edges, edge2, point, radius);
 #else
-    float v2 = penumbra_cut_visibility(t2, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
-    return cuts.convex ? max(v1, v2) : min(v1, v2);
+    if (crossed) t2 = penumbra_cut_share(edges, second, edge2, point, depth, behind, radius);
 #endif
+    return penumbra_past_two(edge1, edge2, t1, t2, point);
 #endif
 }
 
