@@ -40,15 +40,19 @@ struct DiskCells {
     }
 };
 
-/// A disk light, as RectShape is a rectangle.
+/// A disk light, as RectShape is a rectangle. In line, so that loops over edges vectorise.
 template <class T>
 struct DiskShape {
     DiskUnits<T> disk;
     const DiskCells* mask;
 
     T area() const { return disk.area; }
-    T coverage(T ax, T ay, T bx, T by) const { return disk_edge_coverage(ax, ay, bx, by, disk, LaneRoot()); }
-    T coverage(const ColumnEdge<T>&, T ax, T ay, T bx, T by) const { return coverage(ax, ay, bx, by); }
+    [[gnu::always_inline]] T coverage(T ax, T ay, T bx, T by) const {
+        return disk_edge_coverage(ax, ay, bx, by, disk, LaneRoot());
+    }
+    [[gnu::always_inline]] T coverage(const ColumnEdge<T>&, T ax, T ay, T bx, T by) const {
+        return coverage(ax, ay, bx, by);
+    }
     std::uint32_t cells(int column, int) const { return mask->columns[static_cast<std::size_t>(column)]; }
     int cell_count(int) const { return mask->count; }
 };

@@ -16,17 +16,17 @@
 #include "../numeric.glsl"
 #include "disk_visibility.glsl"
 
-// The share of the disk left of x, less 1/2, for |x| <= radius; `half_unit` is 1 / (2 radius).
-float penumbra_left_of(float x, float half_unit) {
-    float rest = abs(0.5f - abs(x) * half_unit);
+// The share of the disk left of x, limited to the radius, less 1/2; `half_unit` is 1 / (2 radius).
+float penumbra_left_of(float x, float radius, float half_unit) {
+    float rest = abs(0.5f - abs(penumbra_clamp(x, -radius, radius)) * half_unit);
     float segment = rest * (sqrt(rest) * penumbra_segment_polynomial(rest));
     return x < 0.0f ? -(0.5f - segment) : 0.5f - segment;
 }
 
 // The signed area of the part of a disk around the origin that lies below the edge from a to b, towards -y, between its
 // ends' columns: summed over a closed loop that runs counter-clockwise it is the loop's area inside the disk, winding
-// counted. Plane coordinates, any unit; radius in [0, 1e18], coordinates up to 1e18 radii. 0 for a vertical edge, one of
-// no length, one beside or below the disk, and for radius 0.
+// counted. Plane coordinates, any unit; radius in [0, 1e18], coordinates up to 1e18 radii. 0 for a vertical edge, one
+// of no length, one beside or below the disk, and for radius 0.
 float penumbra_disk_edge_coverage(vec2 a, vec2 b, float radius) {
     // by a power of two to a radius from 1 to 2
     bool has_area = radius >= PENUMBRA_SMALLEST;
@@ -72,10 +72,10 @@ float penumbra_disk_edge_coverage(vec2 a, vec2 b, float radius) {
     // 1 where the line comes in above, and where it goes out above
     float above_l = !inside_l && y0 >= 0.0f ? 1.0f : 0.0f;
     float above_r = !inside_r && y1 >= 0.0f ? 1.0f : 0.0f;
-    float strips = above_r * penumbra_left_of(penumbra_clamp(r.x, -scaled, scaled), half_unit) -
-                   above_l * penumbra_left_of(penumbra_clamp(l.x, -scaled, scaled), half_unit);
-    float halves = (above_l - 0.5f) * penumbra_left_of(penumbra_clamp(x0, -scaled, scaled), half_unit) +
-                   (0.5f - above_r) * penumbra_left_of(penumbra_clamp(x1, -scaled, scaled), half_unit);
+    float strips =
+        above_r * penumbra_left_of(r.x, scaled, half_unit) - above_l * penumbra_left_of(l.x, scaled, half_unit);
+    float halves = (above_l - 0.5f) * penumbra_left_of(x0, scaled, half_unit) +
+                   (0.5f - above_r) * penumbra_left_of(x1, scaled, half_unit);
     float trapezium = (y0 + y1) * (x1 - x0) * (2.0f * half_unit * half_unit / PENUMBRA_DISK_PI);
     float below = (strips + halves + trapezium) * area;
     float counted = dx >= PENUMBRA_SMALLEST ? below : 0.0f;
