@@ -22,7 +22,8 @@ namespace penumbra {
 namespace detail {
 
 // Loops over what follows vectorise. It has no errno; no calls, since all parts are marked to stay in line; and no
-// choices but between numbers that exist already: those between constants, and arithmetic for one side, become branches.
+// choices but between numbers that exist already: those between constants, or with arithmetic for one side, become
+// branches.
 
 /// √x as the language has it: for one edge.
 struct PlainRoot {
