@@ -1,11 +1,13 @@
 // Whole queries as C++, with the options that are defined at the moment; may be included again and again, each time in
-// another namespace below glsl. Forgets options and include guards, so that the next one starts afresh.
+// another namespace below glsl. Forgets options and include guards, so that the next one starts afresh. All methods but
+// for those that PENUMBRA_WITHOUT_... leaves out.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // some options leave a parameter unused
 #include "../../shaders/penumbra/light.glsl"
-#ifndef PENUMBRA_ONLY_WEDGES
+#ifndef PENUMBRA_WITHOUT_SLICES
 #include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
 #endif
+#ifndef PENUMBRA_WITHOUT_WEDGES
 #include "../../shaders/penumbra/penumbra_wedge/clip.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/coverage.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/overlap.glsl"
@@ -13,13 +15,19 @@
 #include "../../shaders/penumbra/penumbra_wedge/shadow.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/wedge.glsl"
+#endif
+#ifndef PENUMBRA_WITHOUT_VOLUMES
+#include "../../shaders/penumbra/umbra_volume/cut_share.glsl"
+#include "../../shaders/penumbra/umbra_volume/d_buffer.glsl"
 #include "../../shaders/penumbra/umbra_volume/disk_coverage.glsl"
 #include "../../shaders/penumbra/umbra_volume/disk_visibility.glsl"
 #include "../../shaders/penumbra/umbra_volume/extrusion.glsl"
+#include "../../shaders/penumbra/umbra_volume/silhouette.glsl"
+#endif
 #pragma GCC diagnostic pop
 
-/// What was compiled.
-#ifndef PENUMBRA_ONLY_WEDGES
+// What was compiled.
+#ifndef PENUMBRA_WITHOUT_SLICES
 struct Query {
     using Slices = PENUMBRA_SLICE_SAMPLER;
     using Info = penumbra_OcclusionTexture;
@@ -37,6 +45,7 @@ struct Query {
 };
 
 #endif
+#ifndef PENUMBRA_WITHOUT_WEDGES
 struct WedgeQuery {
     using Info = penumbra_WedgeShadow;
     static constexpr int overlap = PENUMBRA_PENUMBRA_WEDGE_OVERLAP;
@@ -47,6 +56,21 @@ struct WedgeQuery {
         return penumbra_visibility(wedges, info, point_ls);
     }
 };
+
+#endif
+#ifndef PENUMBRA_WITHOUT_VOLUMES
+struct DBufferQuery {
+    using View = penumbra_DBufferView;
+    static constexpr int layers = PENUMBRA_UMBRA_VOLUME_LAYERS;
+    static constexpr int form = PENUMBRA_UMBRA_VOLUME_VISIBILITY;
+    static constexpr int share = PENUMBRA_UMBRA_VOLUME_SHARE;
+    static constexpr int depth = PENUMBRA_UMBRA_VOLUME_DEPTH;
+
+    static float visibility(sampler2D crossings, sampler2D edges, const View& view, float radius, vec3 point_ls) {
+        return penumbra_visibility(crossings, edges, view, radius, point_ls);
+    }
+};
+#endif
 
 #undef PENUMBRA_BOXES_GLSL
 #undef PENUMBRA_COMBINE_GLSL
@@ -75,9 +99,12 @@ struct WedgeQuery {
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_CUT_SHARE_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_D_BUFFER_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_DISK_COVERAGE_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_DISK_VISIBILITY_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_EXTRUSION_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_SILHOUETTE_GLSL
 #undef PENUMBRA_OCCLUSION_TEXTURE_BIAS
 #undef PENUMBRA_OCCLUSION_TEXTURE_CELLS
 #undef PENUMBRA_OCCLUSION_TEXTURE_CHANNELS
@@ -89,5 +116,9 @@ struct WedgeQuery {
 #undef PENUMBRA_PENUMBRA_WEDGE_CELLS
 #undef PENUMBRA_PENUMBRA_WEDGE_OVERLAP
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE
+#undef PENUMBRA_UMBRA_VOLUME_DEPTH
+#undef PENUMBRA_UMBRA_VOLUME_LAYERS
+#undef PENUMBRA_UMBRA_VOLUME_SHARE
+#undef PENUMBRA_UMBRA_VOLUME_VISIBILITY
 #undef PENUMBRA_SLICE_SAMPLER
 #undef PENUMBRA_WEDGE_PARTS

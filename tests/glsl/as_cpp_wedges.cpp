@@ -3,7 +3,8 @@
 
 #include "as_cpp.hpp"
 
-#define PENUMBRA_ONLY_WEDGES
+#define PENUMBRA_WITHOUT_SLICES
+#define PENUMBRA_WITHOUT_VOLUMES
 namespace glsl {
 
 namespace additive {
@@ -97,10 +98,10 @@ penumbra::PenumbraWedgeOptions options_of() {
 template <class Query>
 void compare() {
     const penumbra::PenumbraWedgeOptions options = options_of<Query>();
-    for (const WedgeScene& scene : wedge_scenes()) {
+    for (const Scene& scene : scenes()) {
         const WedgeCase query(scene, options, count);
         const auto info = info_of<Query>(query.texels);
-        WedgeDifference difference;
+        Difference difference;
         for (std::size_t i = 0; i < query.truth.size(); ++i)
             difference.add(Query::visibility({&query.texels.texels}, info, query.points_ls[i]), query.truth[i]);
         std::printf("%-26s %-22s %d points, %4d in penumbra  worst %.3g\n", wedge_name(options).c_str(), scene.name,
@@ -120,7 +121,7 @@ void compare() {
 template <class Query>
 void read_by(int bound) {
     constexpr int asked = 1000;
-    const WedgeScene scene{"a sphere", {scaled_at(icosphere<float>(5), 0.8F, {0, 1.5F, 0})}, {0.5F, 0.5F}};
+    const Scene scene{"a sphere", {scaled_at(icosphere<float>(5), 0.8F, {0, 1.5F, 0})}, {0.5F, 0.5F}};
     const WedgeCase query(scene, options_of<Query>(), asked);
     std::size_t reads = 0;
     for (const glm::vec3& point : query.points_ls)
@@ -152,7 +153,7 @@ TEST_CASE("a query reads what is near the silhouette, not the mesh") {
 }
 
 TEST_CASE("points that are not finite, on the light's plane or behind it see everything") {
-    const WedgeCase query(wedge_scenes()[1], {}, 1);
+    const WedgeCase query(scenes()[1], {}, 1);
     const auto info = info_of<glsl::WedgeQuery>(query.texels);
     constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     for (const glm::vec3& point : {glm::vec3(0, 0, 0), glm::vec3(0, 0, -1), glm::vec3(0, 0, nan), glm::vec3(nan, 0, 4),

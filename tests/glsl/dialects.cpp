@@ -77,6 +77,13 @@ std::map<std::string, std::vector<std::string>> calls() {
         wedge + "O(0) = penumbra_blend(wedges, w, p);", wedge + "O(0) = penumbra_blend_by_rectangles(wedges, w, p);",
         wedge + "O(0) = penumbra_blend_by_rectangle_product(wedges, w, p);",
         wedge + "O(0) = penumbra_blend_by_areas(wedges, w, p, PENUMBRA_COMBINATION_PRODUCT);"};
+    const std::string d_buffer = "penumbra_DBufferView view; view.slopes = " + box +
+                                 "; view.resolution = int(I(4)); vec3 at = vec3(I(5), I(6), I(7)); ";
+    result["umbra_volume/d_buffer"].push_back(d_buffer + "O(0) = penumbra_visibility(wedges, wedges, view, I(8), at);");
+    result["umbra_volume/d_buffer"].push_back(
+        d_buffer +
+        "penumbra_HidingEdge e = penumbra_hiding_edge(wedges, int(I(8))); O(0) = float(e.mesh + e.chained); "
+        "O(1) = penumbra_cut_share(wedges, vec4(at, I(9)), e, at, I(10), I(11) > 0.0, I(12));");
     result["penumbra_wedge/shadow"] = {point + "O(0) = penumbra_visibility(wedges, w, at);"};
     return result;
 }
@@ -189,8 +196,17 @@ TEST_CASE("passes and queries compile with every option") {
                           {"PENUMBRA_WEDGE_OVERLAP " + std::to_string(rule), "PENUMBRA_WEDGE_SILHOUETTE " + from,
                            "PENUMBRA_WEDGE_BITMASK_SIZE " + size},
                           main);
-        // both methods in one shader
-        check("penumbra_wedge/shadow.glsl", "frag", version, {}, shipped("occlusion_texture/shadow.glsl") + main);
+        for (const std::string layers : {"1", "2"})
+            for (const std::string form : {"0", "1", "2"})
+                for (const std::string share : {"0", "1"})
+                    for (const std::string depth : {"0", "1"})
+                        check("umbra_volume/d_buffer.glsl", "frag", version,
+                              {"UMBRA_VOLUME_LAYERS " + layers, "UMBRA_VOLUME_VISIBILITY " + form,
+                               "UMBRA_VOLUME_SHARE " + share, "UMBRA_VOLUME_DEPTH " + depth},
+                              main);
+        // all methods in one shader
+        check("penumbra_wedge/shadow.glsl", "frag", version, {},
+              shipped("occlusion_texture/shadow.glsl") + shipped("umbra_volume/d_buffer.glsl") + main);
     }
     for (const std::string version : {"430 core", "310 es"})
         check("occlusion_texture/summed_area_scan.comp", "comp", version, {"SCAN_COLUMNS 1"}, "");

@@ -14,6 +14,7 @@
 #include "functions/penumbra_wedge_packing.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
 #include "functions/umbra_volume.hpp"
+#include "functions/umbra_volume_d_buffer.hpp"
 
 namespace penumbra::test::functions {
 
@@ -30,6 +31,7 @@ inline std::vector<Function> all() {
     add_penumbra_wedge_packing(result);
     add_penumbra_wedge_wedge(result);
     add_umbra_volume(result);
+    add_umbra_volume_d_buffer(result);
     return result;
 }
 

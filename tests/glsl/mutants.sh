@@ -54,10 +54,11 @@ try_mutant() {
 # Whether the tests that read a snippet pass on a tree: on the driver, then as C++, which sees reads beyond textures.
 passes() (
     cd "$1"
-    local queries="lookups queries wedge_queries" as_cpp="as_cpp_lookups as_cpp_wedges"
+    local queries="lookups queries wedge_queries d_buffer_queries" as_cpp="as_cpp_lookups as_cpp_wedges as_cpp_d_buffers"
     case $2 in
         occlusion_texture/*) queries="lookups queries" as_cpp=as_cpp_lookups ;;
         penumbra_wedge/*) queries=wedge_queries as_cpp=as_cpp_wedges ;;
+        umbra_volume/*) queries=d_buffer_queries as_cpp=as_cpp_d_buffers ;;
     esac
     for program in functions $queries; do
         PENUMBRA_SHADERS=$1/shaders timeout 60 "$programs/test_glsl_$program" --abort-after=1 >/dev/null 2>&1 || exit 1

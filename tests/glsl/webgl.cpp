@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "d_buffer_cases.hpp"
 #include "program.hpp"
 #include "support/folder.hpp"
 #include "wedge_cases.hpp"
@@ -190,7 +191,7 @@ Job visibility(const std::string& name, SliceFilter filter, int channels) {
     return job;
 }
 
-Job wedges(const std::string& name, const test::WedgeScene& scene, const PenumbraWedgeOptions& options) {
+Job wedges(const std::string& name, const test::Scene& scene, const PenumbraWedgeOptions& options) {
     const test::WedgeCase query(scene, options, count);
     const WedgeTexels& texels = query.texels;
     Job job{name, "penumbra_wedge/shadow.glsl", "", "", {texture("masks", texels.texels)}, "sampler2D", {}, 1, {},
@@ -205,12 +206,29 @@ Job wedges(const std::string& name, const test::WedgeScene& scene, const Penumbr
     return job;
 }
 
+Job d_buffer(const std::string& name, const test::Scene& scene, const UmbraVolumeOptions& options) {
+    const test::DBufferCase query(scene, options, count);
+    const DBufferView<float>& view = query.d_buffer.view();
+    Job job{name, "umbra_volume/d_buffer.glsl", "", "", {}, "sampler2D", {}, 1, {}, 1e-6};
+    for (const std::string& define : test::d_buffer_defines(options)) job.defines += "#define " + define + "\n";
+    job.body = "penumbra_DBufferView view; view.slopes = penumbra_rect2(" + exact(view.slopes.min) + ", " +
+               exact(view.slopes.max) + "); view.resolution = " + std::to_string(view.resolution) +
+               "; vec4 v = vec4(penumbra_visibility(masks, depths, view, " + exact(query.d_buffer.radius()) +
+               ", penumbra_in.xyz));";
+    job.textures = {texture("masks", query.texels.crossings), texture("depths", query.texels.edges)};
+    for (const Vec3<float>& p : query.points_ls) job.inputs.insert(job.inputs.end(), {p.x, p.y, p.z, 0.0F});
+    for (const float v : query.truth) job.truth.push_back(static_cast<double>(v));
+    return job;
+}
+
 }  // namespace
 
 TEST_CASE("lookups and queries in WebGL2") {
     const std::string box = "penumbra_rect2(penumbra_in.xy, penumbra_in.zw)";
     const test::SliceImages slices = test::random_slices(17, 13, 8), square = test::random_slices(64, 16, 8);
     const Values map = test::mipmaps_of(square, 64, 16, 4);
+    UmbraVolumeOptions d_buffer_options;
+    d_buffer_options.resolution = 64;
     const std::vector<Job> jobs{
         means<SummedArea<std::uint32_t>>("summed_area", 17, 13, texture("masks", test::tables_of(slices, 17, 13, 4)),
                                          slices, "usampler2DArray", "penumbra_summed_area_mean(masks, 1, " + box + ")",
@@ -223,9 +241,9 @@ TEST_CASE("lookups and queries in WebGL2") {
         visibility("visibility_summed_area", SliceFilter::summed_area, 4),
         visibility("visibility_n_buffer", SliceFilter::n_buffer, 4),
         visibility("visibility_mipmap", SliceFilter::mipmap, 1),
-        wedges("wedges_bitmask", test::wedge_scenes()[1], {}),
-        wedges("wedges_rectangles", test::wedge_scenes()[4],
-               {OverlapRule::rectangles, 32, SilhouetteFrom::light_center}),
+        wedges("wedges_bitmask", test::scenes()[1], {}),
+        wedges("wedges_rectangles", test::scenes()[4], {OverlapRule::rectangles, 32, SilhouetteFrom::light_center}),
+        d_buffer("d_buffer", test::scenes()[1], d_buffer_options),
     };
     const std::string page = page_after(jobs);
     for (const Job& job : jobs) {

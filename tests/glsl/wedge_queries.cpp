@@ -8,43 +8,22 @@
 #include <vector>
 
 #include "compute.hpp"
+#include "float_texture.hpp"
 #include "wedge_cases.hpp"
 
 using namespace penumbra;
 using test::Api;
 using test::Context;
+using test::Difference;
+using test::FloatTexture;
 using test::Program;
 using test::Route;
 using test::WedgeCase;
-using test::WedgeDifference;
 
 namespace {
 
 const bool mutant = std::getenv("PENUMBRA_SHADERS") != nullptr;
 const int points = mutant ? 192 : 768;  // a scene
-
-/// Texels of floats, without filtering.
-class FloatTexture {
-  public:
-    explicit FloatTexture(const Image<glm::vec4>& texels) {
-        const glm::vec4 none(0);
-        const int width = texels.empty() ? 1 : texels.width(), height = texels.empty() ? 1 : texels.height();
-        glGenTextures(1, &name_);
-        glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, name_);
-        glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width, height);
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT,
-                        texels.empty() ? &none : texels.data());
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
-    ~FloatTexture() { glDeleteTextures(1, &name_); }
-    FloatTexture(const FloatTexture&) = delete;
-    FloatTexture& operator=(const FloatTexture&) = delete;
-
-  private:
-    GLuint name_ = 0;
-};
 
 void set_uniforms(const WedgeTexels& texels, const Program& program) {
     program.set("wedges", 0);
@@ -53,9 +32,9 @@ void set_uniforms(const WedgeTexels& texels, const Program& program) {
 }
 
 /// All scenes by one program.
-WedgeDifference difference(const Context& context, const PenumbraWedgeOptions& options, Route route) {
-    WedgeDifference result;
-    const std::vector<test::WedgeScene> scenes = test::wedge_scenes();
+Difference difference(const Context& context, const PenumbraWedgeOptions& options, Route route) {
+    Difference result;
+    const std::vector<test::Scene> scenes = test::scenes();
     const test::Compute compute{
         "penumbra_wedge/shadow.glsl",
         3,
@@ -66,9 +45,9 @@ WedgeDifference difference(const Context& context, const PenumbraWedgeOptions& o
         "info.nodes = nodes; O(0) = penumbra_visibility(wedges, info, vec3(I(0), I(1), I(2)));",
         route};
     const Program program = compute.program(context);
-    for (const test::WedgeScene& scene : scenes) {
+    for (const test::Scene& scene : scenes) {
         const WedgeCase query(scene, options, points);
-        const FloatTexture texture(query.texels.texels);
+        const FloatTexture texture(query.texels.texels, 0);
         std::vector<float> in;
         for (const Vec3<float>& p : query.points_ls) in.insert(in.end(), {p.x, p.y, p.z});
         const std::vector<float> out =
@@ -80,7 +59,7 @@ WedgeDifference difference(const Context& context, const PenumbraWedgeOptions& o
 
 /// Masks may take a cell otherwise where its middle is on an edge to rounding: at few points, and by a cell or two.
 void check(const PenumbraWedgeOptions& options, Api api, Route route) {
-    const WedgeDifference got = difference(Context(api), options, route);
+    const Difference got = difference(Context(api), options, route);
     const bool masks = options.overlap == OverlapRule::bitmask;
     const double bound = masks ? 2.0 / (options.bitmask_size * options.bitmask_size) : 2e-6;
     const std::string name = test::wedge_name(options);
@@ -102,7 +81,8 @@ TEST_CASE("visibility is that of the C++, by every rule, with silhouettes from p
     for (const OverlapRule rule : {OverlapRule::additive, OverlapRule::rectangles, OverlapRule::bitmask})
         all.push_back({rule, 16, SilhouetteFrom::light_center});
     if (mutant)  // mutants.sh runs this a few hundred times
-        all = {{OverlapRule::bitmask, 32, SilhouetteFrom::point}, {OverlapRule::additive, 32, SilhouetteFrom::light_center}};
+        all = {{OverlapRule::bitmask, 32, SilhouetteFrom::point},
+               {OverlapRule::additive, 32, SilhouetteFrom::light_center}};
     for (const PenumbraWedgeOptions& options : all) check(options, Api::desktop, Route::direct);
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("a box under a turned light, by both modes, against its exact area") {
             squares += std::pow(static_cast<double>(shadow.visibility(p)) - v, 2);
         }
         CHECK(partly > 300);
-        CHECK(std::sqrt(squares / 3000) <= (options.mode == DiskMode::edge_sum ? 1e-5 : 0.03));
+        CHECK(std::sqrt(squares / 3000) <= (options.mode == DiskMode::edge_sum ? 1e-5 : 0.02));
     }
 }
 

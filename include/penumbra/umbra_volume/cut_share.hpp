@@ -5,6 +5,7 @@
 // as a D-buffer keeps them, it is exact for edges parallel to the light.
 #pragma once
 
+#include <algorithm>
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/numeric.hpp>
@@ -37,7 +38,7 @@ template <class T>
 T penumbra_cut_share(T silhouette_depth, T penumbra_depth, T depth) {
     const T s = silhouette_depth, p = penumbra_depth, x = depth;
     // the fractions times s p x, so that nothing is divided but once
-    return T(1) - T(0.5) * saturated_ratio((x - p) * s, (x - s) * p > T(0) ? (x - s) * p : T(0));
+    return T(1) - T(0.5) * saturated_ratio((x - p) * s, std::max((x - s) * p, T(0)));
 }
 
 /// t past an edge at `silhouette_depth`, at `depth`, on a ray from the light's centre that the caster blocks and that
@@ -46,7 +47,7 @@ T penumbra_cut_share(T silhouette_depth, T penumbra_depth, T depth) {
 template <class T>
 T umbra_cut_share(T silhouette_depth, T umbra_depth, T depth) {
     const T s = silhouette_depth, u = umbra_depth, x = depth;
-    return T(0.5) * saturated_ratio((x - u) * s, (x - s) * u > T(0) ? (x - s) * u : T(0));
+    return T(0.5) * saturated_ratio((x - u) * s, std::max((x - s) * u, T(0)));
 }
 
 }  // namespace penumbra

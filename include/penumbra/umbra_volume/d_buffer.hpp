@@ -51,6 +51,7 @@ struct HidingEdge {
     std::uint32_t mesh;
     std::uint32_t chained = none;  ///< the edge beyond the silhouette faces at this one, which hides as well
     std::uint32_t corner = none;   ///< of a corner, whose first edge this is: its second
+    std::uint32_t before = none, after = none;  ///< its neighbours around outer corners
 };
 
 /// The texels of an image from the light's centre: direction (x / z, y / z) in light space to texels.
@@ -87,11 +88,16 @@ TwoCuts<T> two_cuts(const HidingEdge<T>& first, const HidingEdge<T>& second, con
     const Vec3<T> n2 = normalize_or(glm::cross(second.a - point, second.b - second.a), zero);
     const Vec3<T> way1 = normalize_or(Vec3<T>(n1.x, n1.y, T(0)), Vec3<T>(T(1), T(0), T(0)));
     const Vec3<T> way2 = normalize_or(Vec3<T>(n2.x, n2.y, T(0)), Vec3<T>(T(1), T(0), T(0)));
-    const Vec3<T> apart = way1 - way2;
-    const T angle = detail::half_arc(T(0.25) * glm::dot(apart, apart));  // acos of a cosine loses digits at both ends
-    const T hidden1 = glm::dot(n1, (second.a + second.b) * T(0.5) - point);
-    const T hidden2 = glm::dot(n2, (first.a + first.b) * T(0.5) - point);
-    return {angle, first.mesh == second.mesh && hidden1 >= T(0) && hidden2 >= T(0)};
+    // from the shorter of two chords: acos of a cosine loses digits at both ends, and may be that of more than 1
+    const bool obtuse = glm::dot(way1, way2) < T(0);
+    const Vec3<T> chord = obtuse ? way1 + way2 : way1 - way2;
+    const T turn = detail::half_arc(T(0.25) * glm::dot(chord, chord));
+    // on the other's plane counts as hidden: of an edge there and back between is nothing
+    const Vec3<T> to1 = (first.a + first.b) * T(0.5) - point, to2 = (second.a + second.b) * T(0.5) - point;
+    constexpr T slack = T(-32) * std::numeric_limits<T>::epsilon();
+    const bool hidden1 = glm::dot(n2, to1) >= slack * detail::largest_component(to1);
+    const bool hidden2 = glm::dot(n1, to2) >= slack * detail::largest_component(to2);
+    return {obtuse ? pi<T> - turn : turn, first.mesh == second.mesh && hidden1 && hidden2};
 }
 
 /// V(t) by one of its forms.
@@ -136,7 +142,9 @@ class DBuffer {
         umbra_.assign(count * static_cast<std::size_t>(layers), {});
         penumbra_.assign(umbra_.size(), {});
         std::vector<Surface> surfaces(count);
+        blocked_.assign(count, HidingEdge<T>::none);
         for (std::uint32_t m = 0; m < meshes.size(); ++m) draw(meshes[m], m, silhouette, reach, surfaces);
+        std::vector<std::uint32_t>().swap(blocked_);
         for (int y = 0; y < resolution; ++y)
             for (int x = 0; x < resolution; ++x) {
                 const double between = surfaces[texel(x, y)].between();
@@ -145,7 +153,10 @@ class DBuffer {
             }
     }
 
-    bool empty() const { return casters_.empty() || !(view_.slopes.min.x < view_.slopes.max.x); }
+    bool empty() const {
+        return casters_.empty() || !(view_.slopes.min.x < view_.slopes.max.x) ||
+               !(view_.slopes.min.y < view_.slopes.max.y);
+    }
     const DBufferView<T>& view() const { return view_; }
     int layers() const { return layers_; }
     T radius() const { return radius_; }
@@ -165,9 +176,9 @@ class DBuffer {
     }
 
     /// The fraction of the light that a point in light space sees past one edge or two. Exactly 1 before the penumbra
-    /// and exactly 0 within the umbra; 1 on and behind the light's plane.
+    /// and exactly 0 within the umbra; 1 on and behind the light's plane, and for points that are not finite.
     T visibility(const Vec3<T>& point, CutVisibility form, CutShare share) const {
-        if (!(point.z > T(0)) || empty()) return T(1);
+        if (!(point.z > T(0)) || !is_finite(point) || empty()) return T(1);
         const Vec2<T> at = view_.to_texel(point);
         const T size = static_cast<T>(view_.resolution);
         if (!(at.x >= T(0) && at.x < size && at.y >= T(0) && at.y < size)) return T(1);
@@ -177,16 +188,16 @@ class DBuffer {
         const Crossing<T>* const crossings = (behind ? umbra_ : penumbra_).data() + i * layer_count();
         // what an edge leaves that was not crossed yet: nothing of the light, or all
         const T uncrossed = behind ? T(0) : T(1);
-        if (!(crossings[0].depth < depth)) return uncrossed;
+        if (!has_edge(crossings[0]) || !(crossings[0].depth < depth)) return uncrossed;
         const HidingEdge<T>& first = edges_[crossings[0].edge];
         const T t1 = cut_share(crossings[0], point, depth, behind, share);
         if (share == CutShare::edge && first.corner != HidingEdge<T>::none) {
             const HidingEdge<T>& second = edges_[first.corner];
             return past_two(first, second, t1, share_of(second, point), point, form);
         }
-        const T v1 = cut_visibility(t1, form);
+        const T v1 = share == CutShare::edge ? past_neighbours(first, t1, point, form) : cut_visibility(t1, form);
         if (layers_ < 2 || !has_edge(crossings[1]) || !(crossings[1].silhouette_depth < depth)) return v1;
-        const HidingEdge<T>& second = other_edge(crossings[1], first);
+        const HidingEdge<T>& second = edges_[crossings[1].edge];
         const bool crossed = crossings[1].depth < depth;
         if (!crossed && first.mesh == second.mesh) return v1;  // where one caster ends, its first edge says
         const T t2 = !crossed                  ? uncrossed
@@ -235,11 +246,21 @@ class DBuffer {
         return behind ? umbra_cut_share(crossing.silhouette_depth, crossing.depth, depth)
                       : penumbra_cut_share(crossing.silhouette_depth, crossing.depth, depth);
     }
-    /// A crossing's edge; of a corner that `first` is at, the other one.
-    const HidingEdge<T>& other_edge(const Crossing<T>& crossing, const HidingEdge<T>& first) const {
-        const HidingEdge<T>& edge = edges_[crossing.edge];
-        const bool is_first = edge.a == first.a && edge.b == first.b;
-        return is_first && edge.corner != HidingEdge<T>::none ? edges_[edge.corner] : edge;
+    /// Past an edge: beyond an outer corner the light is not hidden that lies past the other edge there. Only for
+    /// neighbours that look at least half as long as the light's radius: shorter ones are soon followed by others.
+    T past_neighbours(const HidingEdge<T>& edge, T t, const Vec3<T>& point, CutVisibility form) const {
+        T most = cut_visibility(t, form);
+        for (const std::uint32_t number : {edge.before, edge.after}) {
+            if (number == HidingEdge<T>::none) continue;
+            const HidingEdge<T>& other = edges_[number];
+            if (!(std::max(other.a.z, other.b.z) < point.z)) continue;
+            const T grown_a = point.z / (point.z - other.a.z), grown_b = point.z / (point.z - other.b.z);
+            const Vec2<T> along((other.b.x - point.x) * grown_b - (other.a.x - point.x) * grown_a,
+                                (other.b.y - point.y) * grown_b - (other.a.y - point.y) * grown_a);
+            if (!(glm::dot(along, along) > T(0.25) * radius_ * radius_)) continue;
+            most = std::max(most, past_two(edge, other, t, share_of(other, point), point, form));
+        }
+        return most;
     }
     static T past_two(const HidingEdge<T>& first, const HidingEdge<T>& second, T t1, T t2, const Vec3<T>& point,
                       CutVisibility form) {
@@ -313,6 +334,7 @@ class DBuffer {
                 const double change = (std::abs(normal.x) * texel_size.x + std::abs(normal.y) * texel_size.y) * depth;
                 const double slack = std::min(change, facing * 0.05 * depth) / std::max(facing, 1e-300);
                 surfaces[texel(x, y)].add(depth, slack, solid);
+                blocked_[texel(x, y)] = number;
             });
         }
         const double radius = static_cast<double>(radius_), far = 1e4 * (reach + radius);
@@ -411,8 +433,10 @@ class DBuffer {
     double unit(int x, int y) const {
         return view_.depth == DBufferDepth::euclidean ? glm::length(at(x, y, 1.0)) : 1.0;
     }
+    /// Umbrae only along rays that their own caster blocks: behind its apex an umbra's sides bound nothing.
     void insert(std::vector<Crossing<T>>& layers, int x, int y, double depth, double silhouette_depth,
                 std::uint32_t edge) {
+        if (&layers == &umbra_ && blocked_[texel(x, y)] != edges_[edge].mesh) return;
         const double to_image = unit(x, y);
         Crossing<T> crossing{static_cast<T>(depth * to_image), static_cast<T>(silhouette_depth * to_image), edge};
         Crossing<T>* const kept = layers.data() + texel(x, y) * layer_count();
@@ -422,11 +446,32 @@ class DBuffer {
         }
     }
 
+    /// Whether sides belong to one edge, there and back.
+    static bool are_one(const VolumeSide<double>& x, const VolumeSide<double>& y) {
+        return x.from == y.to && x.to == y.from;
+    }
+    /// Neighbours around outer corners, of the edges of a loop.
+    void connect(const std::vector<VolumeSide<double>>& loop, const EdgeNumbers& numbers) {
+        const std::size_t count = loop.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            if (loop[i].is_fan()) continue;
+            bool outer = true;
+            std::size_t k = (i + 1) % count;
+            for (; loop[k].is_fan(); k = (k + 1) % count)
+                outer = outer && loop[k].crossed == (loop[k].kind == VolumeKind::umbra);
+            if (!outer || k == i || are_one(loop[i], loop[k])) continue;
+            const std::uint32_t edge = numbers.at({loop[i].from, loop[i].to});
+            const std::uint32_t next = numbers.at({loop[k].from, loop[k].to});
+            edges_[edge].after = next, edges_[next].before = edge;
+        }
+    }
+
     /// Quads with their edges; fans with the corner between two, at a tip with the tangent of their arc.
     void draw(const std::vector<VolumeSide<double>>& loop, std::uint32_t mesh, const EdgeNumbers& numbers, double far) {
         const std::size_t count = loop.size();
         const auto is_fan = [](const VolumeSide<double>& side) { return side.is_fan(); };
         const bool tip = std::all_of(loop.begin(), loop.end(), is_fan);
+        if (!tip) connect(loop, numbers);
         std::uint32_t corner = HidingEdge<T>::none;  // of the fan that is being drawn
         for (std::size_t i = 0; i < count; ++i) {
             const VolumeSide<double>& side = loop[i];
@@ -436,16 +481,16 @@ class DBuffer {
                 continue;
             }
             if (!side.ridge || side.crossed) continue;
-            if (tip) {
+            std::size_t before = i, after = i;
+            while (!tip && loop[before].is_fan()) before = (before + count - 1) % count;
+            while (!tip && loop[after].is_fan()) after = (after + 1) % count;
+            if (tip || are_one(loop[before], loop[after])) {
                 const std::array<Vec3<double>, 2> edge = side.hiding_edge();
                 edges_.push_back({Vec3<T>(edge[0]), Vec3<T>(edge[1]), mesh});
                 draw(side, static_cast<std::uint32_t>(edges_.size() - 1), far);
                 continue;
             }
             if (corner == HidingEdge<T>::none) {
-                std::size_t before = i, after = i;
-                while (loop[before].is_fan()) before = (before + count - 1) % count;
-                while (loop[after].is_fan()) after = (after + 1) % count;
                 HidingEdge<T> edge = edges_[numbers.at({loop[before].from, loop[before].to})];
                 edge.corner = numbers.at({loop[after].from, loop[after].to});
                 corner = static_cast<std::uint32_t>(edges_.size());
@@ -479,6 +524,7 @@ class DBuffer {
     int layers_ = 1;
     double near_ = 0.0;
     std::vector<T> casters_;
+    std::vector<std::uint32_t> blocked_;  // while it is built: the last mesh that was drawn at a texel
     std::vector<Crossing<T>> umbra_, penumbra_;
     std::vector<HidingEdge<T>> edges_;
 };

@@ -19,7 +19,7 @@ struct DBufferTexels {
 };
 
 /// The texels of a D-buffer. PENUMBRA_UMBRA_VOLUME_LAYERS must be its number of layers; the query takes its view() and
-/// radius() as well. Empty for an empty one. Reports more than 2^22 edges, which floats cannot number.
+/// radius() as well. Empty for an empty one. Reports more than 2^22 edges: 16384 rows of them.
 inline DBufferTexels d_buffer_texels(const DBuffer<float>& d_buffer) {
     DBufferTexels result;
     const std::vector<HidingEdge<float>>& edges = d_buffer.edges();
@@ -49,7 +49,7 @@ inline DBufferTexels d_buffer_texels(const DBuffer<float>& d_buffer) {
         const int x = i % DBufferTexels::width, y = i / DBufferTexels::width;
         result.edges(x, y) = glm::vec4(edge.a, static_cast<float>(edge.mesh));
         result.edges(x + 1, y) = glm::vec4(edge.b, number(edge.chained));
-        result.edges(x + 2, y) = glm::vec4(number(edge.corner), 0.0F, 0.0F, 0.0F);
+        result.edges(x + 2, y) = glm::vec4(number(edge.corner), number(edge.before), number(edge.after), 0.0F);
     }
     return result;
 }

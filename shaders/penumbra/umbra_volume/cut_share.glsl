@@ -29,7 +29,7 @@ float penumbra_penumbra_cut_share(float silhouette_depth, float penumbra_depth, 
     float s = silhouette_depth;
     float p = penumbra_depth;
     float x = depth;
-    return 1.0f - 0.5f * penumbra_saturated_ratio((x - p) * s, (x - s) * p > 0.0f ? (x - s) * p : 0.0f);
+    return 1.0f - 0.5f * penumbra_saturated_ratio((x - p) * s, max((x - s) * p, 0.0f));
 }
 
 // The same on a ray that the caster blocks and that leaves the umbra volume at `umbra_depth`. In [0, 1/2]; 0 up to there.
@@ -37,7 +37,7 @@ float penumbra_umbra_cut_share(float silhouette_depth, float umbra_depth, float 
     float s = silhouette_depth;
     float u = umbra_depth;
     float x = depth;
-    return 0.5f * penumbra_saturated_ratio((x - u) * s, (x - s) * u > 0.0f ? (x - s) * u : 0.0f);
+    return 0.5f * penumbra_saturated_ratio((x - u) * s, max((x - s) * u, 0.0f));
 }
 
 #endif

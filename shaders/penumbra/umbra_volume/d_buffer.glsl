@@ -7,7 +7,9 @@
 //     .b  the edge's number
 //     .a  the depth beyond which a ray is blocked
 // An edge e is in texels 4 e to 4 e + 2 of `edges`, 1024 a row: a and the caster's number; b and the number of the edge
-// that is chained to it, or -1; in .r, of a corner whose first edge this is, the number of the second, or -1. Points come in light space, as penumbra_to_light gives them.
+// that is chained to it; of a corner whose first edge this is, the number of the second, then those of its neighbours
+// around outer corners, before and after; -1 where there is none. Points come in light space, as penumbra_to_light gives
+// them.
 //
 // Options: PENUMBRA_UMBRA_VOLUME_LAYERS      edges on each side of a caster, 1 or 2
 //          PENUMBRA_UMBRA_VOLUME_VISIBILITY  V(t): one of PENUMBRA_CUT_VISIBILITY_...
@@ -56,10 +58,10 @@ struct penumbra_DBufferView {
 
 // A straight edge that hides part of the light, its caster on the left as seen from the light. Light space. `chained` is
 // the number of the edge beyond the silhouette faces at this one, or -1; `corner`, of a corner whose first edge this is,
-// that of its second.
+// that of its second; `before` and `after` those of its neighbours around outer corners.
 struct penumbra_HidingEdge {
     vec3 a, b;
-    int mesh, chained, corner;
+    int mesh, chained, corner, before, after;
 };
 
 // Two edges as a point sees them: the angle between their visible sides, and whether each lies where the other hides.
@@ -96,11 +98,14 @@ penumbra_TwoCuts penumbra_two_cuts(penumbra_HidingEdge first, penumbra_HidingEdg
     bool obtuse = dot(way1, way2) < 0.0f;
     vec3 chord = obtuse ? way1 + way2 : way1 - way2;
     float turn = penumbra_half_arc(0.25f * dot(chord, chord));
-    float hidden1 = dot(n1, (second.a + second.b) * 0.5f - point);
-    float hidden2 = dot(n2, (first.a + first.b) * 0.5f - point);
+    // on the other's plane counts as hidden: of an edge there and back between is nothing
+    vec3 to1 = (first.a + first.b) * 0.5f - point;
+    vec3 to2 = (second.a + second.b) * 0.5f - point;
+    bool hidden1 = dot(n2, to1) >= -3.814697265625e-6f * penumbra_largest_component(to1);
+    bool hidden2 = dot(n1, to2) >= -3.814697265625e-6f * penumbra_largest_component(to2);
     penumbra_TwoCuts cuts;
     cuts.angle = obtuse ? PENUMBRA_DISK_PI - turn : turn;
-    cuts.convex = first.mesh == second.mesh && hidden1 >= 0.0f && hidden2 >= 0.0f;
+    cuts.convex = first.mesh == second.mesh && hidden1 && hidden2;
     return cuts;
 }
 
@@ -115,11 +120,14 @@ penumbra_HidingEdge penumbra_hiding_edge(highp sampler2D edges, int number) {
     vec4 first = texelFetch(edges, texel, 0);
     vec4 second = texelFetch(edges, ivec2(texel.x + 1, texel.y), 0);
     penumbra_HidingEdge edge;
-    edge.a = first.xyz;
-    edge.b = second.xyz;
+    edge.a = vec3(first.x, first.y, first.z);
+    edge.b = vec3(second.x, second.y, second.z);
     edge.mesh = int(first.w);
     edge.chained = int(second.w);
-    edge.corner = int(texelFetch(edges, ivec2(texel.x + 2, texel.y), 0).x);
+    vec4 third = texelFetch(edges, ivec2(texel.x + 2, texel.y), 0);
+    edge.corner = int(third.x);
+    edge.before = int(third.y);
+    edge.after = int(third.z);
     return edge;
 }
 
@@ -156,12 +164,28 @@ float penumbra_past_two(penumbra_HidingEdge first, penumbra_HidingEdge second, f
 #endif
 }
 
+// What an edge leaves with its neighbour `number`, where that looks at least half as long as the light's radius; or 0.
+float penumbra_past_neighbour(highp sampler2D edges, penumbra_HidingEdge edge, int number, float t, vec3 point,
+                              float radius) {
+    if (number < 0) return 0.0f;
+    penumbra_HidingEdge other = penumbra_hiding_edge(edges, number);
+    if (!(max(other.a.z, other.b.z) < point.z)) return 0.0f;
+    float grown_a = point.z / (point.z - other.a.z);
+    float grown_b = point.z / (point.z - other.b.z);
+    vec2 along = vec2((other.b.x - point.x) * grown_b - (other.a.x - point.x) * grown_a,
+                      (other.b.y - point.y) * grown_b - (other.a.y - point.y) * grown_a);
+    if (!(dot(along, along) > 0.25f * radius * radius)) return 0.0f;
+    return penumbra_past_two(edge, other, t, penumbra_share_of(edges, other, point, radius), point);
+}
+
 // The fraction of the light that a point in light space sees past one edge or two. `radius` is the light's. Exactly 1
 // before the penumbra and outside of the image, exactly 0 within the umbra; 1 on and behind the light's plane, and for
 // points that are not finite.
 float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penumbra_DBufferView view, float radius,
                           vec3 point) {
-    if (!(point.z > 0.0f) || !penumbra_is_finite(point) || !(view.slopes.min.x < view.slopes.max.x)) return 1.0f;
+    if (!(point.z > 0.0f) || !penumbra_is_finite(point) || !(view.slopes.min.x < view.slopes.max.x) ||
+        !(view.slopes.min.y < view.slopes.max.y))
+        return 1.0f;
     vec2 at = penumbra_to_texel(view, point);
     float size = float(view.resolution);
     if (!(at.x >= 0.0f && at.x < size && at.y >= 0.0f && at.y < size)) return 1.0f;
@@ -173,7 +197,7 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
     if (!behind) first = texelFetch(crossings, texel, 0);
     // what an edge leaves that was not crossed yet: nothing of the light, or all
     float uncrossed = behind ? 0.0f : 1.0f;
-    if (!(first.x < depth)) return uncrossed;
+    if (!(first.x < 3.0e38f) || !(first.x < depth)) return uncrossed;
     penumbra_HidingEdge edge1 = penumbra_hiding_edge(edges, int(first.z));
     float t1 = penumbra_cut_share(edges, first, edge1, point, depth, behind, radius);
 #if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
@@ -183,14 +207,16 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
     }
 #endif
     float v1 = penumbra_cut_visibility(t1, PENUMBRA_UMBRA_VOLUME_VISIBILITY);
+#if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
+    v1 = max(v1, penumbra_past_neighbour(edges, edge1, edge1.before, t1, point, radius));
+    v1 = max(v1, penumbra_past_neighbour(edges, edge1, edge1.after, t1, point, radius));
+#endif
 #if PENUMBRA_UMBRA_VOLUME_LAYERS < 2
     return v1;
 #else
     vec4 second = texelFetch(crossings, ivec2(texel.x, texel.y + view.resolution), 0);
     if (!(second.x < 3.0e38f) || !(second.y < depth)) return v1;
     penumbra_HidingEdge edge2 = penumbra_hiding_edge(edges, int(second.z));
-    if (edge2.corner >= 0 && edge2.a == edge1.a && edge2.b == edge1.b)
-        edge2 = penumbra_hiding_edge(edges, edge2.corner);
     bool crossed = second.x < depth;
     if (!crossed && edge1.mesh == edge2.mesh) return v1;
     float t2 = uncrossed;
