@@ -109,6 +109,18 @@ TEST_CASE_TEMPLATE("many points are answered as one by one, and any scene in ran
     }
 }
 
+TEST_CASE("options reach the D-buffer") {
+    const Mesh<float> box = test::box_mesh(Vec3<float>(0, 2, 0), Vec3<float>(1, 0.3F, 1));
+    UmbraVolumeOptions options = by_d_buffer(64);
+    options.layers = 1;
+    options.depth = DBufferDepth::euclidean;
+    const UmbraVolumeShadow<float> shadow({box}, {Vec3<float>(0, 5, 0), Vec3<float>(0, -1, 0), 0.5F}, options);
+    CHECK(shadow.d_buffer().view().resolution == 64);
+    CHECK(shadow.d_buffer().view().depth == DBufferDepth::euclidean);
+    CHECK(shadow.d_buffer().layers() == 1);
+    CHECK(shadow.d_buffer().radius() == 0.5F);
+}
+
 TEST_CASE("bad arguments are named") {
     const Mesh<float> box = test::box_mesh(Vec3<float>(0, 2, 0), Vec3<float>(1, 1, 1));
     const DiskLight<float> light{Vec3<float>(0, 5, 0), Vec3<float>(0, -1, 0), 0.5F};

@@ -33,8 +33,8 @@ class UmbraVolumeShadow {
         if (options.mode == DiskMode::edge_sum)
             edge_sum_ = detail::DiskEdgeSum<T>(casters, light, options.overlap, options.bitmask_size);
         else
-            d_buffer_ =
-                DBuffer<T>(casters, frame_, light.radius, options.resolution, options.layers, options.silhouette);
+            d_buffer_ = DBuffer<T>(casters, frame_, light.radius, options.resolution, options.layers,
+                                   options.silhouette, options.depth);
     }
 
     /// Fraction of the light's area that `point` (world space) sees, in [0, 1]. 1 for points on or behind the light's
