@@ -37,6 +37,7 @@
 #include <penumbra/raster.hpp>
 #include <penumbra/umbra_volume/cut_share.hpp>
 #include <penumbra/umbra_volume/d_buffer.hpp>
+#include <penumbra/umbra_volume/d_buffer_builder.hpp>
 #include <penumbra/umbra_volume/d_buffer_texels.hpp>
 #include <penumbra/umbra_volume/disk_coverage.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>
