@@ -138,12 +138,14 @@ std::vector<Setting> occlusion_texture_settings(Sweep sweep) {
             o.blend = SliceBlend::scattered();
         });
     };
-    foliage(5, 2, 512, 0.02F);
+    foliage(2, 2, 1024, 0.01F);
     if (quick) return all.settings;
     for (const int slices : {4, 6}) {
         for (const int cells : {1, 2}) foliage(slices, cells, 256, 0.1F);
-        for (const int resolution : {512, 640, 768}) foliage(slices, 2, resolution, 0.02F);
+        for (const int resolution : {512, 640}) foliage(slices, 2, resolution, 0.02F);
     }
+    foliage(2, 2, 768, 0.01F);
+    foliage(5, 2, 512, 0.02F);
     foliage(6, 3, 1024, 0.02F);
     all.add({}, [](Options& o) { o.resolution = 1024; });
     all.add({}, [](Options& o) { o.projection = SliceProjection::orthographic; });
