@@ -43,6 +43,7 @@
 #include <penumbra/umbra_volume/disk_visibility.hpp>
 #include <penumbra/umbra_volume/edge_sum.hpp>
 #include <penumbra/umbra_volume/extrusion.hpp>
+#include <penumbra/umbra_volume/hiding_edges.hpp>
 #include <penumbra/umbra_volume/options.hpp>
 #include <penumbra/umbra_volume/shadow.hpp>
 #include <penumbra/umbra_volume/silhouette.hpp>

@@ -20,6 +20,7 @@
 #include <penumbra/mesh.hpp>
 #include <penumbra/umbra_volume/cut_share.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>
+#include <penumbra/umbra_volume/hiding_edges.hpp>
 #include <penumbra/umbra_volume/options.hpp>
 #include <vector>
 
@@ -31,17 +32,6 @@ struct Crossing {
     T depth = std::numeric_limits<T>::max();
     T silhouette_depth = T(0);  ///< of the edge, where the tangent plane's ray through the crossing meets it
     std::uint32_t edge = 0;     ///< DBuffer::edges
-};
-
-/// A straight edge that hides part of the light, its caster on the left as seen from the light. Light space.
-template <class T>
-struct HidingEdge {
-    static constexpr std::uint32_t none = 0xffffffffU;
-    Vec3<T> a, b;
-    std::uint32_t mesh;
-    std::uint32_t chained = none;  ///< the edge beyond the silhouette faces at this one, which hides as well
-    std::uint32_t corner = none;   ///< of a corner, whose first edge this is: its second
-    std::uint32_t before = none, after = none;  ///< its neighbours around outer corners
 };
 
 /// The texels of an image from the light's centre: direction (x / z, y / z) in light space to texels.
@@ -163,9 +153,7 @@ class DBuffer {
         const HidingEdge<T>& second = edges_[crossings[1].edge];
         const bool crossed = crossings[1].depth < depth;
         if (!crossed && first.mesh == second.mesh) return v1;  // where one caster ends, its first edge says
-        const T t2 = !crossed                  ? uncrossed
-                     : share == CutShare::edge ? share_of(second, point)
-                                               : cut_share(crossings[1], point, depth, behind, share);
+        const T t2 = crossed ? cut_share(crossings[1], point, depth, behind, share) : uncrossed;
         return past_two(first, second, t1, t2, point, form);
     }
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -101,14 +102,12 @@ namespace detail {
 
 /// What the two sides of each face see: fronts at 2 f, backs at 2 f + 1.
 template <class T>
-std::vector<DiskSight> sights(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const DiskLight<T>& light,
-                              T tolerance) {
+std::vector<DiskSight> sights(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const DiskLight<double>& light,
+                              double tolerance) {
     const std::size_t count = mesh.triangles.size();
     std::vector<DiskSight> result(2 * count, DiskSight::none);
     std::vector<std::uint32_t> flat;
     const auto vertex = [&](std::size_t face, int k) { return Vec3<double>(mesh.positions[mesh.triangles[face][k]]); };
-    const DiskLight<double> exact{Vec3<double>(light.center), Vec3<double>(light.normal),
-                                  static_cast<double>(light.radius)};
     for (std::size_t f = 0; f < count; ++f) {
         const Vec3<double> a = vertex(f, 0), ab = vertex(f, 1) - a, ac = vertex(f, 2) - a;
         const Vec3<double> normal = normalize_or(glm::cross(ab, ac), Vec3<double>(0.0, 0.0, 0.0));
@@ -118,8 +117,8 @@ std::vector<DiskSight> sights(const Mesh<T>& mesh, const EdgeAdjacency& adjacenc
             flat.push_back(static_cast<std::uint32_t>(f));
             continue;
         }
-        result[2 * f] = disk_sight(normal, a, exact, static_cast<double>(tolerance));
-        result[2 * f + 1] = disk_sight(-normal, a, exact, static_cast<double>(tolerance));
+        result[2 * f] = disk_sight(normal, a, light, tolerance);
+        result[2 * f + 1] = disk_sight(-normal, a, light, tolerance);
     }
     // flat faces, from the other side of their longest edge: in any order, as often as one may hang on another
     if (flat.empty()) return result;
@@ -174,11 +173,15 @@ inline void add_between(std::vector<VolumeEdge>& edges, std::uint32_t a, std::ui
 /// Adds tips: vertices at which planes that touch the disk, tried all around it, have all neighbours on the side of the
 /// disk (umbra) or on the other.
 template <class T>
-void find_tips(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const DiskLight<T>& light,
+void find_tips(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const DiskLight<double>& light,
                VolumeSilhouettes& silhouettes) {
-    constexpr int tries = 8;
-    const LightFrame<double> frame = light_frame(
-        DiskLight<double>{Vec3<double>(light.center), Vec3<double>(light.normal), static_cast<double>(light.radius)});
+    constexpr std::size_t tries = 8;
+    std::array<Vec3<double>, tries> outward;
+    for (std::size_t k = 0; k < tries; ++k) {
+        const double turn = 2.0 * pi<double> * static_cast<double>(k) / static_cast<double>(tries);
+        outward[k] = Vec3<double>(std::cos(turn), std::sin(turn), 0.0);
+    }
+    const LightFrame<double> frame = light_frame(light);
     std::vector<Vec3<double>> vertices;
     vertices.reserve(mesh.positions.size());
     for (const Vec3<T>& p : mesh.positions) vertices.push_back(frame.to_light(Vec3<double>(p)));
@@ -187,9 +190,9 @@ void find_tips(const Mesh<T>& mesh, const EdgeAdjacency& adjacency, const DiskLi
     const auto rule_out = [&](std::uint32_t at, std::uint32_t neighbour) {
         const Vec3<double>&v = vertices[at], way = vertices[neighbour] - v;
         if (umbra[at] == unused) umbra[at] = penumbra[at] = v.z > 0.0 ? tip : other;
-        for (int k = 0; k < tries; ++k) {
-            const double turn = 2.0 * pi<double> * k / tries;
-            const Vec3<double> out(std::cos(turn), std::sin(turn), 0.0), rim = out * static_cast<double>(light.radius);
+        for (std::size_t k = 0; k < tries && (umbra[at] == tip || penumbra[at] == tip); ++k) {
+            const Vec3<double>& out = outward[k];
+            const Vec3<double> rim = out * light.radius;
             const Vec3<double> normal = glm::cross(Vec3<double>(-out.y, out.x, 0.0), v - rim);
             const double side = glm::dot(normal, way) * -glm::dot(normal, rim);  // > 0 on the disk's
             if (!(side >= 0.0)) umbra[at] = other;
@@ -225,14 +228,24 @@ VolumeSilhouettes volume_silhouettes(const Mesh<T>& mesh, const EdgeAdjacency& a
                            glm::cross(Vec3<double>(mesh.positions[t.y] - light.center),
                                       Vec3<double>(mesh.positions[t.z] - light.center)));
     const std::size_t outside = volume < 0.0 ? 1 : 0;
-    const std::vector<DiskSight> sights = detail::sights(mesh, adjacency, light, tolerance);
-    VolumeSilhouettes result;
     const DiskLight<double> exact{Vec3<double>(light.center), Vec3<double>(light.normal),
                                   static_cast<double>(light.radius)};
+    const auto exact_tolerance = static_cast<double>(tolerance);
+    const std::vector<DiskSight> sights = detail::sights(mesh, adjacency, exact, exact_tolerance);
+    VolumeSilhouettes result;
     std::vector<EdgeSides> around;
     std::vector<Vec3<double>> ways;  // from the edge to the third vertices of its faces
     std::vector<VolumeEdge> parting;
+    // most edges of a solid: between faces that all see all of the disk, or none
+    const auto is_inside = [&](const Edge& edge) {
+        const DiskSight first = sights[2 * adjacency.faces[edge.first].face + outside];
+        bool alike = first != DiskSight::some;
+        for (std::uint32_t i = 1; i < edge.count; ++i)
+            alike = alike && sights[2 * adjacency.faces[edge.first + i].face + outside] == first;
+        return alike;
+    };
     for (const Edge& edge : adjacency.edges) {
+        if (solid && is_inside(edge)) continue;
         const Vec3<double> a(mesh.positions[edge.a]), axis = Vec3<double>(mesh.positions[edge.b]) - a;
         const double length2 = glm::dot(axis, axis);
         if (!(length2 > 0.0)) continue;
@@ -276,7 +289,7 @@ VolumeSilhouettes volume_silhouettes(const Mesh<T>& mesh, const EdgeAdjacency& a
             if (first.ahead_inside || second.behind_inside) continue;
             if (around.size() == 1) {
                 const Vec3<double> rim = -(std::cos(first.angle) * right + std::sin(first.angle) * up);
-                const DiskSight sight = disk_sight(rim, a, exact, static_cast<double>(tolerance));
+                const DiskSight sight = disk_sight(rim, a, exact, exact_tolerance);
                 add(first.ahead, sight, true), add(sight, second.behind, true);
                 add_parting(edge.a, edge.b), add_parting(edge.b, edge.a);
                 continue;
@@ -302,7 +315,7 @@ VolumeSilhouettes volume_silhouettes(const Mesh<T>& mesh, const EdgeAdjacency& a
                 if (std::none_of(result.penumbra.begin(), result.penumbra.end(),
                                  [&](const VolumeEdge& e) { return e.from == edge.from && e.to == edge.to; }))
                     result.looming.push_back(edge);
-        detail::find_tips(mesh, adjacency, light, result);
+        detail::find_tips(mesh, adjacency, exact, result);
     }
     return result;
 }

@@ -35,7 +35,6 @@ struct VolumeSide {
     std::uint32_t from, to;  ///< the vertices at a and b
     bool ridge;              ///< see VolumeEdge
     bool crossed;            ///< a fan whose neighbours cross each other, and which lies behind them
-
     VolumeKind kind;
 
     bool is_fan() const { return from == to; }
@@ -87,6 +86,21 @@ std::vector<std::uint32_t> next_edges(const std::vector<Vec3<T>>& vertices, cons
 template <class T>
 T rim_angle(const Vec3<T>& from, const Vec3<T>& to) {
     return std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
+}
+
+/// The nearest side of a loop that is not a fan, `step` at a time from the one at `at`: 1 forwards, loop.size() − 1
+/// back. `at` itself if there is no other.
+template <class T>
+std::size_t quad_beside(const std::vector<VolumeSide<T>>& loop, std::size_t at, std::size_t step) {
+    std::size_t k = at;
+    do k = (k + step) % loop.size();
+    while (k != at && loop[k].is_fan());
+    return k;
+}
+/// Whether a loop is the fan around a tip.
+template <class T>
+bool is_tip(const std::vector<VolumeSide<T>>& loop) {
+    return std::all_of(loop.begin(), loop.end(), [](const VolumeSide<T>& side) { return side.is_fan(); });
 }
 
 }  // namespace detail
@@ -208,16 +222,9 @@ std::vector<ConvexPolygon<Vec3<T>, 16>> trimmed_umbra(const std::vector<VolumeSi
         const Vec3<T> normal = normalize_or(glm::cross(side.b - side.a, side.a - side.rim), Vec3<T>(T(0), T(0), T(0)));
         planes[i] = {normal, -glm::dot(normal, side.a)};
     }
-    const auto quad_beside = [&](std::size_t i, std::size_t step) {  // the nearest that is not a fan
-        std::size_t k = i;
-        do k = (k + step) % count;
-        while (k != i && loop[k].is_fan());
-        return k;
-    };
     for (const VolumeSide<T>& side : loop) convex = convex && (!side.is_fan() || side.crossed);
     std::vector<ConvexPolygon<Vec3<T>, 16>> result(count);
-    if (std::all_of(loop.begin(), loop.end(), [](const VolumeSide<T>& side) { return side.is_fan(); }))
-        return result;  // around a tip there is no umbra
+    if (detail::is_tip(loop)) return result;  // there is no umbra
     for (std::size_t i = 0; i < count; ++i) {
         const VolumeSide<T>& side = loop[i];
         if (side.crossed) continue;
@@ -236,8 +243,8 @@ std::vector<ConvexPolygon<Vec3<T>, 16>> trimmed_umbra(const std::vector<VolumeSi
             for (std::size_t k = 0; k < count; ++k) cut(k);
         } else if (!side.is_fan()) {
             const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-            if (!loop[before].is_fan() || loop[before].crossed) cut(quad_beside(i, count - 1));
-            if (!loop[after].is_fan() || loop[after].crossed) cut(quad_beside(i, 1));
+            if (!loop[before].is_fan() || loop[before].crossed) cut(detail::quad_beside(loop, i, count - 1));
+            if (!loop[after].is_fan() || loop[after].crossed) cut(detail::quad_beside(loop, i, 1));
         }
         if (polygon.count >= 3) result[i] = polygon;
     }

@@ -220,11 +220,7 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
     bool crossed = second.x < depth;
     if (!crossed && edge1.mesh == edge2.mesh) return v1;
     float t2 = uncrossed;
-#if PENUMBRA_UMBRA_VOLUME_SHARE == PENUMBRA_CUT_SHARE_EDGE
-    if (crossed) t2 = penumbra_share_of(edges, edge2, point, radius);
-#else
     if (crossed) t2 = penumbra_cut_share(edges, second, edge2, point, depth, behind, radius);
-#endif
     return penumbra_past_two(edge1, edge2, t1, t2, point);
 #endif
 }
