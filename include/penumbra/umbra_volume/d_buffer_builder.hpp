@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <penumbra/detail/lit_casters.hpp>
+#include <penumbra/detail/nearest_surfaces.hpp>
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
@@ -29,88 +31,31 @@ class DBufferBuilder {
 
     void build(const std::vector<Mesh<T>>& casters, const LightFrame<T>& frame, int resolution,
                VolumeSilhouette silhouette) {
-        const LightFrame<double> exact{Vec3<double>(frame.origin), Vec3<double>(frame.u), Vec3<double>(frame.v),
-                                       Vec3<double>(frame.normal)};
-        double reach = 0.0;
-        std::vector<Mesh<double>> meshes;
-        for (const Mesh<T>& mesh : casters) {
-            Mesh<double> mesh_ls{{}, mesh.triangles};
-            for (const Vec3<T>& p : mesh.positions) {
-                mesh_ls.positions.push_back(exact.to_light(Vec3<double>(p)));
-                reach = std::max(reach, largest_component(mesh_ls.positions.back()));
-            }
-            meshes.push_back(mesh_ls);
-        }
+        std::vector<Mesh<double>> meshes = in_light_space(casters, frame);
+        const double reach = reach_of(meshes);
         near_ = 1e-6 * reach;
-        for (Mesh<double>& mesh : meshes) mesh = lit_part(mesh);
-        look_at(meshes, resolution);
+        for (Mesh<double>& mesh : meshes) mesh = lit_part(mesh, near_);
+        const double radius = static_cast<double>(buffer_.radius_), widest = static_cast<double>(DBuffer<T>::widest);
+        const Rect2<double> slopes = slopes_around(meshes, Vec2<double>(radius, radius), widest, resolution);
+        buffer_.view_.slopes = {Vec2<T>(slopes.min), Vec2<T>(slopes.max)};
+        buffer_.view_.resolution = resolution;
         const std::size_t count = static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
         buffer_.casters_.assign(count, std::numeric_limits<T>::max());
         buffer_.umbra_.assign(count * buffer_.layer_count(), {});
         buffer_.penumbra_.assign(buffer_.umbra_.size(), {});
-        std::vector<Surface> surfaces(count);
+        std::vector<NearestSurfaces> surfaces(count);
         blocked_.assign(count, HidingEdge<T>::none);
         for (std::uint32_t m = 0; m < meshes.size(); ++m) draw(meshes[m], m, silhouette, reach, surfaces);
         for (int y = 0; y < resolution; ++y)
             for (int x = 0; x < resolution; ++x) {
-                const double between = surfaces[buffer_.texel(x, y)].between();
-                constexpr auto none = static_cast<double>(std::numeric_limits<T>::max());
-                buffer_.casters_[buffer_.texel(x, y)] = static_cast<T>(between < none ? between * unit(x, y) : none);
+                const NearestSurfaces& at = surfaces[buffer_.texel(x, y)];
+                if (at.empty()) continue;
+                const double between = at.has_inside() ? at.middle() : at.first + at.slack;
+                buffer_.casters_[buffer_.texel(x, y)] = static_cast<T>(between * unit(x, y));
             }
     }
 
   private:
-    /// The two surfaces of a texel nearest to the light.
-    struct Surface {
-        double first = std::numeric_limits<double>::max(), second = std::numeric_limits<double>::max();
-        double slack = 0.0;  ///< of the first: what its depth changes by over the texel
-        bool solid = false;
-
-        void add(double depth, double change, bool of_solid) {
-            if (depth < first)
-                second = first, first = depth, slack = change, solid = of_solid;
-            else
-                second = std::min(second, depth);
-        }
-        double between() const {
-            constexpr auto none = static_cast<double>(std::numeric_limits<T>::max());
-            if (!(first < none)) return none;
-            return solid && second < none ? 0.5 * (first + second) : first + slack;
-        }
-    };
-
-    /// What of a mesh lies before the light's plane.
-    Mesh<double> lit_part(const Mesh<double>& mesh) const {
-        Mesh<double> result;
-        for (const glm::uvec3& t : mesh.triangles) {
-            ConvexPolygon<Vec3<double>, 4> polygon;
-            for (int k = 0; k < 3; ++k) polygon.push(mesh.positions[t[k]]);
-            polygon = clip(
-                polygon, [&](const Vec3<double>& v) { return v.z - near_; }, [&](Vec3<double>& v) { v.z = near_; });
-            const auto first = static_cast<std::uint32_t>(result.positions.size());
-            for (std::uint32_t k = 0; k < polygon.count; ++k) {
-                result.positions.push_back(polygon.vertices[k]);
-                if (k >= 2) result.triangles.emplace_back(first, first + k - 1, first + k);
-            }
-        }
-        return weld(result);
-    }
-
-    /// Slopes around all that volumes may reach.
-    void look_at(const std::vector<Mesh<double>>& meshes, int resolution) {
-        Rect2<double> slopes = empty_rect<double>();
-        const double radius = static_cast<double>(buffer_.radius_);
-        for (const Mesh<double>& mesh : meshes)
-            for (const Vec3<double>& p : mesh.positions)
-                for (const double way : {-radius, radius})
-                    slopes = extend(slopes, Vec2<double>((p.x + way) / p.z, (p.y + way) / p.z));
-        const Vec2<double> most(static_cast<double>(DBuffer<T>::widest), static_cast<double>(DBuffer<T>::widest));
-        slopes = intersect(slopes, {-most, most});
-        const Vec2<double> margin = (slopes.max - slopes.min) * (1.0 / resolution) + Vec2<double>(1e-9, 1e-9);
-        buffer_.view_.slopes = {Vec2<T>(slopes.min - margin), Vec2<T>(slopes.max + margin)};
-        buffer_.view_.resolution = resolution;
-    }
-
     RasterVertex<double> seen(const Vec3<double>& p) const {
         const Vec2<double> low(buffer_.view_.slopes.min), size(extent(buffer_.view_.slopes));
         const double scale = static_cast<double>(buffer_.view_.resolution);
@@ -127,7 +72,7 @@ class DBufferBuilder {
     }
 
     void draw(const Mesh<double>& mesh, std::uint32_t number, VolumeSilhouette silhouette, double reach,
-              std::vector<Surface>& surfaces) {
+              std::vector<NearestSurfaces>& surfaces) {
         const EdgeAdjacency adjacency = edge_adjacency(mesh);
         draw_surfaces(mesh, is_closed(adjacency), number, surfaces);
         const double radius = static_cast<double>(buffer_.radius_), far = 1e4 * (reach + radius);
@@ -152,7 +97,8 @@ class DBufferBuilder {
         }
     }
 
-    void draw_surfaces(const Mesh<double>& mesh, bool solid, std::uint32_t number, std::vector<Surface>& surfaces) {
+    void draw_surfaces(const Mesh<double>& mesh, bool solid, std::uint32_t number,
+                       std::vector<NearestSurfaces>& surfaces) {
         const Vec2<double> texel_size =
             extent(Rect2<double>{Vec2<double>(buffer_.view_.slopes.min), Vec2<double>(buffer_.view_.slopes.max)}) *
             (1.0 / static_cast<double>(buffer_.view_.resolution));
@@ -160,11 +106,7 @@ class DBufferBuilder {
             const Vec3<double>&a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
             const Vec3<double> normal = glm::cross(b - a, c - a);
             draw_triangle(a, b, c, [&](int x, int y, double depth) {
-                // along the plane, depth is k / (n · slope)
-                const double facing = std::abs(glm::dot(normal, at(x, y, 1.0)));
-                const double change = (std::abs(normal.x) * texel_size.x + std::abs(normal.y) * texel_size.y) * depth;
-                const double slack = std::min(change, facing * 0.05 * depth) / std::max(facing, 1e-300);
-                surfaces[buffer_.texel(x, y)].add(depth, slack, solid);
+                surfaces[buffer_.texel(x, y)].add(depth, depth_slack(normal, at(x, y, 1.0), texel_size, depth), solid);
                 blocked_[buffer_.texel(x, y)] = number;
             });
         }
