@@ -86,7 +86,28 @@
     template class DBuffer<T>;                                                                                     \
     template class UmbraVolumeShadow<T>;                                                                           \
     template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const LightFrame<T>&, T);         \
-    template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const DiskLight<T>&);
+    template ExtrusionPoints<T> extrusion_points(const Vec3<T>&, const Vec3<T>&, const DiskLight<T>&);             \
+    template T edge_visibility(const RowPoint<T>&, const RowPoint<T>&, T, T);                                      \
+    template T skin_visibility(T);                                                                                 \
+    template T skin_visibility(T, T, T, T);                                                                        \
+    template LightInterval<T> hidden_interval(const RowPoint<T>&, const RowPoint<T>&, const RowPoint<T>&, T, T);   \
+    template class LightUnion<T>;                                                                                  \
+    template class LightMask<T>;                                                                                   \
+    template T laplacian_of_gaussian(const glm::mat<3, 3, T, glm::defaultp>&);                                     \
+    template bool is_laplacian_step(T, T, T);                                                                      \
+    template bool is_step(const Vec3<T>&, const Vec3<T>&, T, T);                                                   \
+    template Skin<T> warp_skin(T, T, T, T, T);                                                                     \
+    template T receiver_under_edge(const Skin<T>&, const RowPoint<T>&, const RowPoint<T>&, T);                     \
+    template struct LightMapView<T>;                                                                               \
+    template struct LightMap<T>;                                                                                   \
+    template class SkinMaps<T>;                                                                                    \
+    template class RowSegments<T>;                                                                                 \
+    template T narrowest_gap(const LightMapView<T>&, const LightMap<T>&, T);                                       \
+    template int samples_for_gap(T, T, int);                                                                       \
+    template class SoftShadowMap<T>;                                                                               \
+    template std::vector<LinearLight<T>> polygon_edges(const std::vector<Vec3<T>>&);                               \
+    template std::vector<LinearLight<T>> polygon_lines(const std::vector<Vec3<T>>&, int);                          \
+    template class SoftShadowMaps<T>;
 
 namespace penumbra {
 

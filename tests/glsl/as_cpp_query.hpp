@@ -16,6 +16,15 @@
 #include "../../shaders/penumbra/penumbra_wedge/silhouette.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/wedge.glsl"
 #endif
+#ifndef PENUMBRA_WITHOUT_MAPS
+#include "../../shaders/penumbra/soft_shadow_map/discontinuity.glsl"
+#include "../../shaders/penumbra/soft_shadow_map/light_interval.glsl"
+#include "../../shaders/penumbra/soft_shadow_map/light_map.glsl"
+#include "../../shaders/penumbra/soft_shadow_map/linear_visibility.glsl"
+#include "../../shaders/penumbra/soft_shadow_map/row_segments.glsl"
+#include "../../shaders/penumbra/soft_shadow_map/skin.glsl"
+#include "../../shaders/penumbra/soft_shadow_map/skin_maps.glsl"
+#endif
 #ifndef PENUMBRA_WITHOUT_VOLUMES
 #include "../../shaders/penumbra/umbra_volume/cut_share.glsl"
 #include "../../shaders/penumbra/umbra_volume/d_buffer.glsl"
@@ -54,6 +63,27 @@ struct WedgeQuery {
 
     static float visibility(sampler2D wedges, const Info& info, vec3 point_ls) {
         return penumbra_visibility(wedges, info, point_ls);
+    }
+};
+
+#endif
+#ifndef PENUMBRA_WITHOUT_MAPS
+struct SkinMapQuery {
+    using View = penumbra_LightMapView;
+    static constexpr bool hard = PENUMBRA_SOFT_SHADOW_MAP_HARD != 0;
+    static constexpr bool edges = PENUMBRA_SOFT_SHADOW_MAP_EDGES != 0;
+
+    static float visibility(sampler2D maps, sampler2D both, const View& view, int count, vec3 point_ls) {
+        return penumbra_visibility(maps, both, view, count, point_ls);
+    }
+};
+
+struct RowSegmentQuery {
+    using View = penumbra_LightMapView;
+    static constexpr bool mask = PENUMBRA_SOFT_SHADOW_MAP_MASK != 0;
+
+    static float visibility(sampler2D segments, const View& view, float first, float last, vec3 point_ls) {
+        return penumbra_visibility(segments, view, first, last, point_ls);
     }
 };
 
@@ -98,6 +128,13 @@ struct DBufferQuery {
 #undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_TEXELS_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_DISCONTINUITY_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_LIGHT_INTERVAL_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_LIGHT_MAP_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_LINEAR_VISIBILITY_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_ROW_SEGMENTS_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_SKIN_GLSL
+#undef PENUMBRA_SOFT_SHADOW_MAP_SKIN_MAPS_GLSL
 #undef PENUMBRA_SUMMED_AREA_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_CUT_SHARE_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_D_BUFFER_GLSL
@@ -116,9 +153,13 @@ struct DBufferQuery {
 #undef PENUMBRA_PENUMBRA_WEDGE_CELLS
 #undef PENUMBRA_PENUMBRA_WEDGE_OVERLAP
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE
+#undef PENUMBRA_SOFT_SHADOW_MAP_EDGES
+#undef PENUMBRA_SOFT_SHADOW_MAP_HARD
+#undef PENUMBRA_SOFT_SHADOW_MAP_MASK
 #undef PENUMBRA_UMBRA_VOLUME_DEPTH
 #undef PENUMBRA_UMBRA_VOLUME_LAYERS
 #undef PENUMBRA_UMBRA_VOLUME_SHARE
 #undef PENUMBRA_UMBRA_VOLUME_VISIBILITY
+#undef PENUMBRA_LIGHT_UNION_PARTS
 #undef PENUMBRA_SLICE_SAMPLER
 #undef PENUMBRA_WEDGE_PARTS

@@ -3,6 +3,7 @@
 
 #include "as_cpp.hpp"
 
+#define PENUMBRA_WITHOUT_MAPS
 #define PENUMBRA_WITHOUT_SLICES
 #define PENUMBRA_WITHOUT_VOLUMES
 namespace glsl {

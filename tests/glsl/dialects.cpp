@@ -84,6 +84,18 @@ std::map<std::string, std::vector<std::string>> calls() {
         d_buffer +
         "penumbra_HidingEdge e = penumbra_hiding_edge(wedges, int(I(8))); O(0) = float(e.mesh + e.chained); "
         "O(1) = penumbra_cut_share(wedges, vec4(at, I(9)), e, at, I(10), I(11) > 0.0, I(12));");
+    const std::string light_map = "penumbra_LightMapView view; view.slopes = " + box +
+                                  "; view.resolution = int(I(4)); vec3 at = vec3(I(5), I(6), I(7)); ";
+    result["soft_shadow_map/skin_maps"] = {light_map +
+                                           "O(0) = penumbra_visibility(wedges, wedges, view, int(I(8)), at);"};
+    result["soft_shadow_map/row_segments"].push_back(light_map +
+                                                     "O(0) = penumbra_visibility(wedges, view, I(8), I(9), at);");
+    result["soft_shadow_map/row_segments"].push_back(
+        light_map +
+        "penumbra_Settled s = penumbra_settle(wedges, view, penumbra_row_point(I(8), I(9)), int(I(10)), int(I(11))); "
+        "O(0) = s.point.slope + s.point.inverse_depth + float(s.own); "
+        "penumbra_RowSegment r = penumbra_row_segment(wedges, int(I(12))); O(1) = r.a.slope + r.b.inverse_depth; "
+        "vec4 v = penumbra_segment_texel(wedges, int(I(13))); O(2) = v.x;");
     result["penumbra_wedge/shadow"] = {point + "O(0) = penumbra_visibility(wedges, w, at);"};
     return result;
 }
@@ -204,9 +216,16 @@ TEST_CASE("passes and queries compile with every option") {
                               {"UMBRA_VOLUME_LAYERS " + layers, "UMBRA_VOLUME_VISIBILITY " + form,
                                "UMBRA_VOLUME_SHARE " + share, "UMBRA_VOLUME_DEPTH " + depth},
                               main);
+        for (const std::string a : {"0", "1"}) {
+            for (const std::string b : {"0", "1"})
+                check("soft_shadow_map/skin_maps.glsl", "frag", version,
+                      {"SOFT_SHADOW_MAP_HARD " + a, "SOFT_SHADOW_MAP_EDGES " + b}, main);
+            check("soft_shadow_map/row_segments.glsl", "frag", version, {"SOFT_SHADOW_MAP_MASK " + a}, main);
+        }
         // all methods in one shader
         check("penumbra_wedge/shadow.glsl", "frag", version, {},
-              shipped("occlusion_texture/shadow.glsl") + shipped("umbra_volume/d_buffer.glsl") + main);
+              shipped("occlusion_texture/shadow.glsl") + shipped("umbra_volume/d_buffer.glsl") +
+                  shipped("soft_shadow_map/skin_maps.glsl") + shipped("soft_shadow_map/row_segments.glsl") + main);
     }
     for (const std::string version : {"430 core", "310 es"})
         check("occlusion_texture/summed_area_scan.comp", "comp", version, {"SCAN_COLUMNS 1"}, "");

@@ -13,6 +13,8 @@
 #include "functions/penumbra_wedge_overlap.hpp"
 #include "functions/penumbra_wedge_packing.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
+#include "functions/soft_shadow_map.hpp"
+#include "functions/soft_shadow_map_rows.hpp"
 #include "functions/umbra_volume.hpp"
 #include "functions/umbra_volume_d_buffer.hpp"
 
@@ -30,6 +32,8 @@ inline std::vector<Function> all() {
     add_penumbra_wedge_overlap(result);
     add_penumbra_wedge_packing(result);
     add_penumbra_wedge_wedge(result);
+    add_soft_shadow_map(result);
+    add_soft_shadow_map_rows(result);
     add_umbra_volume(result);
     add_umbra_volume_d_buffer(result);
     return result;

@@ -54,10 +54,12 @@ try_mutant() {
 # Whether the tests that read a snippet pass on a tree: on the driver, then as C++, which sees reads beyond textures.
 passes() (
     cd "$1"
-    local queries="lookups queries wedge_queries d_buffer_queries" as_cpp="as_cpp_lookups as_cpp_wedges as_cpp_d_buffers"
+    local queries="lookups queries wedge_queries map_queries d_buffer_queries"
+    local as_cpp="as_cpp_lookups as_cpp_wedges as_cpp_maps as_cpp_d_buffers"
     case $2 in
         occlusion_texture/*) queries="lookups queries" as_cpp=as_cpp_lookups ;;
         penumbra_wedge/*) queries=wedge_queries as_cpp=as_cpp_wedges ;;
+        soft_shadow_map/*) queries=map_queries as_cpp=as_cpp_maps ;;
         umbra_volume/*) queries=d_buffer_queries as_cpp=as_cpp_d_buffers ;;
     esac
     for program in functions $queries; do

@@ -53,9 +53,9 @@ inline Mesh<double> lit_part(const Mesh<double>& mesh, double near) {
 }
 
 /// Slopes x / z and y / z around all that casts a shadow of a light that reaches from −half_size to half_size in its
-/// plane, at most `widest`, with a texel to spare.
+/// plane, at most `widest`, with `margin_tx` texels to spare.
 inline Rect2<double> slopes_around(const std::vector<Mesh<double>>& lit, const Vec2<double>& half_size, double widest,
-                                   int resolution) {
+                                   int resolution, int margin_tx = 1) {
     Rect2<double> slopes = empty_rect<double>();
     for (const Mesh<double>& mesh : lit)
         for (const Vec3<double>& p : mesh.positions)
@@ -63,7 +63,7 @@ inline Rect2<double> slopes_around(const std::vector<Mesh<double>>& lit, const V
                 slopes = extend(slopes, Vec2<double>((p.x + way * half_size.x) / p.z, (p.y + way * half_size.y) / p.z));
     const Vec2<double> most(widest, widest);
     slopes = intersect(slopes, {-most, most});
-    const Vec2<double> margin = (slopes.max - slopes.min) * (1.0 / resolution) + Vec2<double>(1e-9, 1e-9);
+    const Vec2<double> margin = (slopes.max - slopes.min) * (double(margin_tx) / resolution) + Vec2<double>(1e-9, 1e-9);
     return {slopes.min - margin, slopes.max + margin};
 }
 
