@@ -52,13 +52,14 @@ std::vector<Scene> wanted_scenes(const Arguments& arguments) {
     return scenes;
 }
 
-/// Scenes that compare rules for overlap, and those of disk lights, are many and plain: they get by with less.
+/// Scenes that compare rules for overlap, and those of disk and line lights, are many and plain: they get by with less.
 Effort effort_for(Subject subject, const Arguments& arguments) {
     Effort effort;
-    if (subject == Subject::overlap || subject == Subject::volumes) {
+    if (subject == Subject::overlap || subject == Subject::volumes || subject == Subject::lines) {
         effort.points = 4096, effort.timed = 2048, effort.most_rays = 512, effort.rounds = 3;
         effort.width = 400, effort.height = 300;
     }
+    if (subject == Subject::lines) effort.points = 2048, effort.timed = 1024, effort.most_rays = 256;
     if (arguments.quick) effort = {2048, 1024, 1024, 256, 3, 280, 210, 128};
     if (arguments.points > 0) effort.points = arguments.points;
     return effort;
@@ -81,8 +82,10 @@ int run(const Arguments& arguments, const std::string& command) {
     }
     if (arguments.scaling) {
         const Effort effort = effort_for(Subject::overlap, arguments);
-        if (arguments.light != "disk") measure_spheres(effort, study), measure_triangles(effort, study);
-        if (arguments.light != "rectangle") measure_disk_triangles(effort, study), measure_resolution(effort, study);
+        const auto wanted = [&](const char* kind) { return arguments.light.empty() || arguments.light == kind; };
+        if (wanted("rectangle")) measure_spheres(effort, study), measure_triangles(effort, study);
+        if (wanted("disk")) measure_disk_triangles(effort, study), measure_resolution(effort, study);
+        if (wanted("line")) measure_line_samples(effort, study);
     }
     compare_with_rays(study);
     for (const std::string& missing : write_study(study, folder)) fmt::print(stderr, "note: {}\n", missing);
@@ -101,7 +104,8 @@ int main(int argc, char** argv) {
     app.add_option("--mesh", arguments.mesh, "a mesh file (anything assimp reads), stood above the ground")
         ->check(CLI::ExistingFile);
     app.add_option("--light", arguments.light,
-                   "kind of light, of the same area, for the scenes that are named; else which scenes are measured")
+                   "kind of light for the scenes that are named, of the same area, a line of the same length; else "
+                   "which scenes are measured")
         ->check(CLI::IsMember(light_kinds()));
     app.add_option("--size", arguments.sizes, "factor on the light's size; again for more")
         ->check(CLI::Range(0.0, 1e3))
@@ -110,7 +114,7 @@ int main(int argc, char** argv) {
                    "a method, with all its settings; again for more; all if none is named")
         ->check(CLI::IsMember(method_names()));
     app.add_flag("--scaling", arguments.scaling,
-                 "cost against spheres, triangles and resolutions; no scenes unless they are named");
+                 "cost against spheres, triangles, resolutions and samples; no scenes unless they are named");
     app.add_option("--points", arguments.points, "points to measure errors at, at most those that the camera sees")
         ->check(CLI::Range(1, 10000000));
     app.add_flag("--quick", arguments.quick, "fewer settings, points and rays: about a tenth of the time");

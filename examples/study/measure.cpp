@@ -6,29 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "drawing.hpp"
 #include "error.hpp"
+#include "measured.hpp"
 #include "progress.hpp"
-#include "rays.hpp"
-#include "scene_pictures.hpp"
 #include "timing.hpp"
-#include "view.hpp"
 
 namespace penumbra::study {
 namespace {
-
-constexpr double longest_picture = 8.0;  // seconds
-
-/// What is measured of a scene: where, and against what.
-struct Measured {
-    const Scene& scene;
-    const Effort& effort;
-    View view;
-    Points points, timed;
-    reference::Scene traced;
-    std::vector<float> truth;
-    std::vector<bool> overlap;
-    SceneInfo info;
-};
 
 Points points_of(const View& view, const std::vector<std::size_t>& chosen) {
     Points points;
@@ -63,13 +48,6 @@ Measured look_at(const Scene& scene, const Effort& effort) {
     return measured;
 }
 
-/// A setting of a method, built, and what is known of it.
-struct Candidate {
-    Built built;
-    Row row;
-    std::string special;
-};
-
 Candidate build(const Setting& setting, const Measured& measured) {
     Candidate candidate;
     const auto start = Clock::now();
@@ -93,64 +71,6 @@ void set_errors(Row& row, const std::vector<float>& visibility, const Measured& 
     row.rmse = error.rmse, row.max_error = error.max, row.bias = error.bias;
     if (measured.info.overlap_points > 0)
         row.overlap_rmse = compare(visibility, measured.truth, &measured.overlap).rmse;
-}
-
-const Candidate* find(const std::vector<Candidate>& candidates, const Setting& setting) {
-    for (const Candidate& candidate : candidates)
-        if (candidate.row.method == setting.method && candidate.row.knobs == setting.knobs) return &candidate;
-    return nullptr;
-}
-
-/// The default and the best setting of each method, and those that are special.
-void draw_settings(const ScenePictures& pictures, const std::vector<Candidate>& candidates, Study& study) {
-    for (const Candidate& candidate : candidates) {
-        const Row& row = candidate.row;
-        const Row* best = best_row(study, row.scene, row.method);
-        const bool is_best = best && best->knobs == row.knobs;
-        std::string special = row.is_default ? "default" : candidate.special;
-        if (is_best) special += special.empty() ? "best setting" : ", the best setting";
-        if (special.empty()) continue;
-        if (pictures.seconds(row) > longest_picture) {
-            fmt::print(stderr, "{}: no picture of {}, it would take {:.0f} s\n", row.scene, row.method,
-                       pictures.seconds(row));
-            continue;
-        }
-        study.pictures.push_back(pictures.draw(row, candidate.built, special));
-    }
-}
-
-/// Plain wedges beside blended ones where silhouettes overlap.
-void draw_triplet(const ScenePictures& pictures, const std::vector<Candidate>& candidates, Study& study) {
-    const WedgeFigure figure = wedge_figure();
-    const Candidate *plain = find(candidates, figure.plain), *blended = find(candidates, figure.blended);
-    if (!plain || !blended) return;
-    if (pictures.seconds(plain->row) + pictures.seconds(blended->row) > longest_picture) return;
-    study.triplets.push_back(pictures.triplet(plain->row, plain->built, blended->row, blended->built));
-}
-
-/// Where umbra and penumbra begin by volumes from the disk and from its centre.
-void draw_parts(const ScenePictures& pictures, const Measured& measured, const std::vector<Candidate>& candidates,
-                Study& study) {
-    const VolumeFigure figure = volume_figure();
-    const Candidate *disk = find(candidates, figure.two_layers), *center = find(candidates, figure.from_light_center);
-    if (!disk || !center) return;
-    study.parts.push_back(
-        pictures.parts(measured.traced, {{"D-buffer, volumes from the disk", &disk->built},
-                                         {"D-buffer, volumes from the light's centre", &center->built}}));
-}
-
-void draw(const Measured& measured, const std::vector<Candidate>& candidates, const std::filesystem::path& folder,
-          Study& study) {
-    const Scene& scene = measured.scene;
-    say(scene.name, "pictures");
-    const ScenePictures pictures(scene, measured.view,
-                                 trace(measured.traced, scene, measured.view.points, measured.effort.picture_rays),
-                                 folder);
-    draw_settings(pictures, candidates, study);
-    if (scene.subject == Subject::overlap && measured.info.overlap_points > 0)
-        draw_triplet(pictures, candidates, study);
-    if (scene.subject == Subject::volumes && scene.casters.size() == 1)
-        draw_parts(pictures, measured, candidates, study);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ Keys keys_of(const Study& study, const std::string& scene) {
     if (methods.size() > 1) return {"method", "method"};
     if (!methods.empty() && methods.front() == "penumbra_wedge") return {"overlap", "silhouette"};
     if (!methods.empty() && methods.front() == "umbra_volume") return {"mode", "layers"};
+    if (!methods.empty() && methods.front() == "soft_shadow_map") return {"mode", "transition"};
     return {"filter", "combination"};
 }
 

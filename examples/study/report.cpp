@@ -161,10 +161,7 @@ Json to_json(const Study& study) {
                                     {"difference", picture.difference_png},
                                     {"rmse", picture.rmse}});
     for (const Triplet& triplet : study.triplets)
-        json["triplets"].push_back({{"scene", triplet.scene},
-                                    {"picture", triplet.png},
-                                    {"plain_rmse", triplet.plain_rmse},
-                                    {"blended_rmse", triplet.blended_rmse}});
+        json["triplets"].push_back({{"scene", triplet.scene}, {"picture", triplet.png}, {"caption", triplet.caption}});
     for (const Parts& parts : study.parts) {
         Json agreements = Json::array();
         for (const Agreement& one : parts.agreements)

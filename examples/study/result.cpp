@@ -1,5 +1,7 @@
 #include "result.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -82,6 +84,18 @@ std::string file_name(const std::string& scene) {
     std::string name;
     for (const char c : scene) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
     return name;
+}
+
+std::string digits(double x) {
+    const int decimals = x >= 100.0 ? 0 : x >= 10.0 ? 1 : 2;
+    const bool whole = x < 1e9 && x == static_cast<double>(static_cast<long>(x));
+    return fmt::format("{:.{}f}", x, whole ? 0 : decimals);
+}
+
+std::string with_commas(std::size_t count) {
+    std::string text = std::to_string(count);
+    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
+    return text;
 }
 
 std::string plain_name(const std::string& name) {

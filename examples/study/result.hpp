@@ -45,11 +45,10 @@ struct Picture {
     double rmse = 0.0;  ///< of its row: the picture's truth has fewer rays
 };
 
-/// Plain wedges, wedges blended as in the paper, and truth, side by side, where silhouettes overlap: its Figures 1
-/// and 2.
+/// Three pictures side by side, as a figure of a method's paper has them.
 struct Triplet {
     std::string scene, png;
-    double plain_rmse = 0.0, blended_rmse = 0.0;  ///< of visibility, at the points where silhouettes overlap
+    std::string caption;  ///< what they are, from left to right, and how far from the truth
 };
 
 /// The share of points that a setting has where the truth has them, in light, penumbra or umbra: of all points, and of
@@ -123,6 +122,12 @@ std::vector<std::string> methods_on(const Study& study, const std::string& scene
 
 /// A name for files made from a scene's name: letters, digits, '-' and '_' only.
 std::string file_name(const std::string& scene);
+
+/// Three significant digits or all before the point, no exponent.
+std::string digits(double x);
+
+/// "1,234,567".
+std::string with_commas(std::size_t count);
 
 /// What people call a method, a knob or its value.
 std::string plain_name(const std::string& name);

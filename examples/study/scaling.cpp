@@ -184,4 +184,23 @@ void measure_resolution(const Effort& effort, Study& study) {
     finish(std::move(figure), stages, study);
 }
 
+void measure_line_samples(const Effort& effort, Study& study) {
+    CostFigure figure{"line-samples", "samples of a line light",
+                      "Cost of a line light's maps against their number, on the scene blocker: plain shadow maps, the "
+                      "same with skins, and intervals."};
+    figure.log_x = figure.log_y = false;
+    Stages stages;
+    Stage& stage = add_stage(stages, figure.name, make_scene("blocker"), 0.0, effort);
+    stage.add_rays(effort.most_rays);
+    for (const int samples : {2, 3, 5, 9, 17, 33}) {
+        const LineFigure settings = line_figure(samples);
+        stage.add("plain shadow maps", settings.plain, samples);
+        stage.add("skins", settings.skins, samples);
+        stage.add("intervals", settings.intervals, samples);
+    }
+    take_turns(stages, figure.name, effort.rounds);
+    stage.compare_with_rays();
+    finish(std::move(figure), stages, study);
+}
+
 }  // namespace penumbra::study

@@ -20,4 +20,7 @@ void measure_disk_triangles(const Effort& effort, Study& study);
 /// Cost of umbra volumes against the resolution of D-buffers.
 void measure_resolution(const Effort& effort, Study& study);
 
+/// Cost of a line light's maps against their number: plain, with skins, and with intervals.
+void measure_line_samples(const Effort& effort, Study& study);
+
 }  // namespace penumbra::study

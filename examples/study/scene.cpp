@@ -23,6 +23,12 @@ Light light_above(const Vec& center, float half_size) {
 
 Light disk_above(const Vec& center, float radius) { return DiskLight<float>{center, Vec(0.0F, -1.0F, 0.0F), radius}; }
 
+/// Along x.
+Light line_above(const Vec& center, float half_length) {
+    const Vec half(half_length, 0.0F, 0.0F);
+    return LinearLight<float>{center - half, center + half};
+}
+
 void add_ground(Scene& scene) {
     add_quad(scene.ground, Vec(0.0F, 0.0F, 0.0F), Vec(12.0F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -12.0F));
 }
@@ -197,14 +203,60 @@ Scene concave_near() { return concave(0.6F); }
 Scene concave_middle() { return concave(1.4F); }
 Scene concave_far() { return concave(3.0F); }
 
-/// A scene that was made for another kind of light of the same area.
+/// Quads under a line light.
+Scene lines(const std::string& about) {
+    Scene scene;
+    scene.about = about;
+    scene.subject = Subject::lines;
+    scene.light = line_above(Vec(0.0F, 8.0F, 0.0F), 2.0F);
+    scene.camera = {Vec(2.2F, 6.6F, 7.6F), Vec(0.0F, 0.9F, 0.0F), 0.42F};
+    return scene;
+}
+
+Scene blocker() {
+    Scene scene = lines("A flat quad, oblique to a line light, as in Heidrich, Brabec & Seidel's Figures 2, 4 and 9.");
+    Mesh<float> quad;
+    const float angle = 0.5F;
+    const Vec u(std::cos(angle), 0.0F, -std::sin(angle)), v(-std::sin(angle), 0.0F, -std::cos(angle));
+    add_quad(quad, Vec(0.0F, 2.5F, 0.0F), 1.3F * u, 0.8F * v);
+    scene.casters.push_back(std::move(quad));
+    return scene;
+}
+
+Scene two_blockers() {
+    Scene scene = lines("Two quads with a gap, through which many points see the middle of a line light but no end.");
+    for (const float side : {-1.0F, 1.0F}) {
+        Mesh<float> quad;
+        add_quad(quad, Vec(side * 1.4F, 3.0F, 0.0F), Vec(1.15F, 0.0F, 0.0F), Vec(0.0F, 0.0F, -0.8F));
+        scene.casters.push_back(std::move(quad));
+    }
+    return scene;
+}
+
+Scene fence() {
+    Scene scene = lines("40 bars in a row along a line light, as wide as the gaps between them.");
+    constexpr int bars = 40;
+    constexpr float half_width = 0.04F;
+    Mesh<float> mesh;
+    for (int bar = 0; bar < bars; ++bar)
+        add_quad(mesh, Vec(4.0F * half_width * (static_cast<float>(bar) - 0.5F * (bars - 1)), 1.2F, 0.0F),
+                 Vec(half_width, 0.0F, 0.0F), Vec(0.0F, 0.9F, -0.2F));
+    scene.casters.push_back(std::move(mesh));
+    scene.light = line_above(Vec(0.0F, 6.0F, -4.0F), 2.0F);
+    scene.camera = {Vec(2.2F, 5.6F, 8.0F), Vec(0.0F, 0.4F, 1.0F), 0.42F};
+    return scene;
+}
+
+/// A scene that was made for another kind of light.
 Scene with_light(Scene scene, const std::string& kind) {
-    scene.subject = kind == "disk" ? Subject::volumes : Subject::methods;
+    scene.subject = kind == "disk" ? Subject::volumes : kind == "line" ? Subject::lines : Subject::methods;
     scene.light = as_kind(scene.light, kind);
     return scene;
 }
 Scene spheres_disk() { return with_light(spheres(), "disk"); }
 Scene bunny_disk() { return with_light(bunny(), "disk"); }
+Scene spheres_line() { return with_light(spheres(), "line"); }
+Scene bunny_line() { return with_light(bunny(), "line"); }
 
 struct Named {
     const char* name;
@@ -227,7 +279,12 @@ constexpr Named built_in[] = {{"spheres", spheres},
                               {"concave", concave_middle},
                               {"concave-far", concave_far},
                               {"spheres-disk", spheres_disk},
-                              {"bunny-disk", bunny_disk}};
+                              {"bunny-disk", bunny_disk},
+                              {"blocker", blocker},
+                              {"two-blockers", two_blockers},
+                              {"fence", fence},
+                              {"spheres-line", spheres_line},
+                              {"bunny-line", bunny_line}};
 
 }  // namespace
 

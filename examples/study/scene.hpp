@@ -21,7 +21,8 @@ enum class Subject {
     methods,             ///< all of them, with all their settings
     occlusion_textures,  ///< their settings; other methods by their defaults
     overlap,             ///< what rules make of casters that one sees before each other
-    volumes              ///< where umbra and penumbra begin under a disk light
+    volumes,             ///< where umbra and penumbra begin under a disk light
+    lines                ///< what few samples of a line light miss
 };
 
 /// World space, y up, the ground at y = 0. The ground receives but does not cast.
@@ -47,8 +48,8 @@ Scene make_scene(const std::string& name);
 /// Any mesh file that assimp reads, scaled and stood on the ground under a light that fits it.
 Scene load_scene(const std::string& file);
 
-/// The scene under a light of `kind` with the same area, its own if none is given, scaled by `size`. What is not the
-/// scene's own goes into its name; another kind makes methods for it the subject.
+/// The scene under a light of `kind` made of its own (see as_kind), its own if none is given, scaled by `size`. What is
+/// not the scene's own goes into its name; another kind makes methods for it the subject.
 Scene under(Scene scene, const std::string& kind, float size);
 
 /// The scene `spheres-low`, with `side` × `side` spheres.

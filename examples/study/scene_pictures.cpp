@@ -58,22 +58,19 @@ Picture ScenePictures::draw(const Row& row, const Built& built, const std::strin
     const Image<Rgb> difference = difference_picture(image_of(view_, visibility), image_of(view_, truth_));
     write_png(folder_ / picture.difference_png, difference);
     write_png(folder_ / (file + "-panel.png"),
-              side_by_side({{scene_.name + "\nray-traced truth", shade(view_, truth_)},
+              side_by_side({{truth().title, shade(view_, truth_)},
                             {fmt::format("{}\nRMSE {:.4f}", picture.label, picture.rmse), shaded},
                             {"difference\nmethod − truth, of visibility", difference}}));
     return picture;
 }
 
-Triplet ScenePictures::triplet(const Row& plain, const Built& plain_built, const Row& blended,
-                               const Built& blended_built) const {
-    const auto title = [](const char* name, const Row& row) {
-        return fmt::format("{}\nRMSE {:.3f} where silhouettes overlap", name, row.overlap_rmse);
-    };
-    const Triplet triplet{scene_.name, file_ + "-triplet.png", plain.overlap_rmse, blended.overlap_rmse};
-    write_png(folder_ / triplet.png,
-              side_by_side({{title("plain wedges", plain), shade(view_, ask(plain_built, view_.points))},
-                            {title("blended wedges", blended), shade(view_, ask(blended_built, view_.points))},
-                            {scene_.name + "\nray-traced truth", shade(view_, truth_)}}));
+Shown ScenePictures::truth() const { return {scene_.name + "\nray-traced truth", truth_}; }
+
+Triplet ScenePictures::triplet(const std::vector<Shown>& shown, const std::string& caption) const {
+    std::vector<Panel> panels;
+    for (const Shown& one : shown) panels.push_back({one.title, shade(view_, one.visibility)});
+    const Triplet triplet{scene_.name, file_ + "-triplet.png", caption};
+    write_png(folder_ / triplet.png, side_by_side(panels));
     return triplet;
 }
 

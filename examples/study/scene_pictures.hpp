@@ -1,4 +1,4 @@
-// Pictures of a scene: its truth, settings beside it, wedges plain and blended beside it, and its light, penumbra and
+// Pictures of a scene: its truth, settings beside it, what figures of papers compare, and its light, penumbra and
 // umbra.
 #pragma once
 
@@ -12,6 +12,12 @@
 #include "view.hpp"
 
 namespace penumbra::study {
+
+/// Visibility at a view's points, and what is written above its picture.
+struct Shown {
+    std::string title;
+    std::vector<float> visibility;
+};
 
 /// Writes pictures of one scene into a folder.
 class ScenePictures {
@@ -27,8 +33,10 @@ class ScenePictures {
     Parts parts(const reference::Scene& traced,
                 const std::vector<std::pair<std::string, const Built*>>& settings) const;
 
-    /// Figures 1 and 2 of the paper; rows and settings of plain and of blended wedges.
-    Triplet triplet(const Row& plain, const Built& plain_built, const Row& blended, const Built& blended_built) const;
+    /// The truth, for a triplet.
+    Shown truth() const;
+    /// Side by side, from left to right.
+    Triplet triplet(const std::vector<Shown>& shown, const std::string& caption) const;
 
     /// Seconds that a picture of the setting would take, on all cores.
     double seconds(const Row& row) const;

@@ -13,13 +13,15 @@ struct Method {
     const char* name;
     std::vector<Setting> (*settings)(Sweep);
 };
-constexpr std::array<Method, 3> methods = {{{"occlusion_texture", occlusion_texture_settings},
+constexpr std::array<Method, 4> methods = {{{"occlusion_texture", occlusion_texture_settings},
                                             {"penumbra_wedge", penumbra_wedge_settings},
-                                            {"umbra_volume", umbra_volume_settings}}};
+                                            {"umbra_volume", umbra_volume_settings},
+                                            {"soft_shadow_map", soft_shadow_map_settings}}};
 
 Sweep default_sweep(const std::string& method, Subject subject) {
     if (subject == Subject::occlusion_textures && method != "occlusion_texture") return Sweep::one;
     if (subject == Subject::overlap && method != "penumbra_wedge") return Sweep::none;
+    if (subject == Subject::lines) return Sweep::few;
     return Sweep::all;
 }
 

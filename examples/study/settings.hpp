@@ -8,6 +8,7 @@
 #include <penumbra/geometry.hpp>
 #include <penumbra/umbra_volume/options.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct Setting {
     std::string special;                       ///< why there is a picture of it in any case; empty if there need not be
 };
 
-/// The setting of `Shadow`, which is for lights of kind `For`, with the given options.
+/// The setting of `Shadow`, which is for lights of kind `For`, with the given options. What takes receivers is told of
+/// the ground.
 template <class Shadow, class For>
 Setting make_setting(const std::string& method, const nlohmann::ordered_json& knobs, bool is_default,
                      const typename Shadow::Options& options) {
@@ -43,7 +45,13 @@ Setting make_setting(const std::string& method, const nlohmann::ordered_json& kn
             is_default,
             [](const Light& light) { return std::holds_alternative<For>(light); },
             [options](const Scene& scene) {
-                const auto shadow = std::make_shared<const Shadow>(scene.casters, std::get<For>(scene.light), options);
+                using Meshes = std::vector<Mesh<float>>;
+                const For& light = std::get<For>(scene.light);
+                std::shared_ptr<const Shadow> shadow;
+                if constexpr (std::is_constructible_v<Shadow, Meshes, For, typename Shadow::Options, Meshes>)
+                    shadow = std::make_shared<const Shadow>(scene.casters, light, options, Meshes{scene.ground});
+                else
+                    shadow = std::make_shared<const Shadow>(scene.casters, light, options);
                 return Built{[shadow](const Vec3<float>* points, std::size_t count, float* result) {
                                  shadow->visibility(points, count, result);
                              },
@@ -55,7 +63,7 @@ Setting make_setting(const std::string& method, const nlohmann::ordered_json& kn
 /// How many settings of a method.
 enum class Sweep { none, one, few, all };
 
-/// occlusion_texture, penumbra_wedge, umbra_volume.
+/// occlusion_texture, penumbra_wedge, umbra_volume, soft_shadow_map.
 std::vector<std::string> method_names();
 
 /// Settings of a method, the default first.
@@ -74,6 +82,9 @@ std::vector<Setting> penumbra_wedge_settings(Sweep sweep);
 /// UmbraVolumeShadow: sums over edges by every rule for overlap, and D-buffers around the paper's and the best.
 std::vector<Setting> umbra_volume_settings(Sweep sweep);
 
+/// SoftShadowMap: every mode by fixed numbers of samples, the paper's skins and better ones, and inserted samples.
+std::vector<Setting> soft_shadow_map_settings(Sweep sweep);
+
 /// Plain wedges, wedges as the paper blends them, and the default: what pictures and plots of its figures compare.
 struct WedgeFigure {
     Setting plain, blended, ours;
@@ -86,5 +97,12 @@ struct VolumeFigure {
     Setting edge_sum, one_layer, two_layers, from_light_center;
 };
 VolumeFigure volume_figure(int resolution = UmbraVolumeOptions().resolution);
+
+/// The paper's skins between two samples, what pictures of its figures show; and plain shadow maps, skins with exact
+/// transitions, and intervals of `samples` samples, what costs are compared of.
+struct LineFigure {
+    Setting paper, plain, skins, intervals;
+};
+LineFigure line_figure(int samples = 2);
 
 }  // namespace penumbra::study

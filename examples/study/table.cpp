@@ -10,13 +10,6 @@
 namespace penumbra::study {
 namespace {
 
-/// Three significant digits or all before the point, no exponent.
-std::string digits(double x) {
-    const int decimals = x >= 100.0 ? 0 : x >= 10.0 ? 1 : 2;
-    const bool whole = x < 1e9 && x == static_cast<double>(static_cast<long>(x));
-    return fmt::format("{:.{}f}", x, whole ? 0 : decimals);
-}
-
 /// "87", or "> 40" where only a limit is known.
 std::string bounded(Bound bound, double known, double limit, const char* unit) {
     if (bound == Bound::none) return known > 0.0 ? digits(known) + unit : "–";

@@ -339,7 +339,7 @@ function drawPlot(scene, root) {
   }
   const keys = scene.keys.length ? scene.keys : ["method"];
   const pick = wanted => wanted.find(key => keys.includes(key)) ?? keys[0];
-  const state = { hue: pick(["method", "mode", "overlap", "filter"]), shape: pick(["method", "layers", "silhouette", "combination"]), hidden: new Set() };
+  const state = { hue: pick(["method", "mode", "overlap", "filter"]), shape: pick(["method", "layers", "silhouette", "transition", "combination"]), hidden: new Set() };
   Chart.defaults.font.family = css("--sans");
   const chart = new Chart(canvas, { type: "line", data: { datasets: datasets(scene, state, canvas.parentElement.clientWidth < 640 ? 0.65 : 1) }, options: options(scene) });
   canvas.setAttribute("aria-label", caption.textContent + " Arrow keys step through the settings that are best for their time; all figures are in the table below.");
@@ -484,14 +484,11 @@ function drawTable(scene, root, light) {
 
 // ---------------------------------------------------------------- rows of pictures
 
-/** Plain wedges, blended wedges and truth. */
+/** What a figure of a method's paper compares. */
 function drawTriplet(scene, root) {
   const figure = $(".triplet:not(.parts)", root), { triplet } = scene;
   if (!triplet) return figure.remove();
-  const caption = `Plain wedges, wedges blended as by Forest, Barthe & Paulin, and the truth. At the ${whole(scene.overlap_points)} of ` +
-    `${whole(scene.points)} points from which silhouettes overlap, RMSE is ${error(triplet.plain_rmse)} and ${error(triplet.blended_rmse)}` +
-    `${triplet.blended_rmse > 0 ? `, ${digits(triplet.plain_rmse / triplet.blended_rmse)}× lower` : ""}.`;
-  showRow(scene, figure, triplet.picture, "d", caption);
+  showRow(scene, figure, triplet.picture, "d", triplet.caption);
 }
 
 /** Where light, penumbra and umbra lie. */
