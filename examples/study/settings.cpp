@@ -35,6 +35,12 @@ std::vector<float> ask(const Built& built, const std::vector<Vec3<float>>& point
     return result;
 }
 
+void add_new(std::vector<Setting>& all, const Setting& one) {
+    for (const Setting& there : all)
+        if (there.knobs == one.knobs) return;
+    all.push_back(one);
+}
+
 std::vector<std::string> method_names() {
     std::vector<std::string> names;
     for (const Method& method : methods) names.emplace_back(method.name);

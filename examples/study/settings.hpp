@@ -60,6 +60,9 @@ Setting make_setting(const std::string& method, const nlohmann::ordered_json& kn
             ""};
 }
 
+/// Adds a setting, unless there is one with the same knobs.
+void add_new(std::vector<Setting>& all, const Setting& one);
+
 /// How many settings of a method.
 enum class Sweep { none, one, few, all };
 

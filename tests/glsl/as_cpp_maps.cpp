@@ -23,9 +23,11 @@ namespace channels {
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <vector>
 
 #include "map_cases.hpp"
 

@@ -42,18 +42,23 @@ LineScene<T> wide_blocker() {
             {quad_mesh(Vec3<T>(T(0.2), T(2.5), T(0)), Vec3<T>(T(1.5), T(0), T(0.3)), Vec3<T>(T(-0.2), T(0), T(1)))}};
 }
 
+/// A random vector: x, y and z between the two numbers of each.
+template <class T>
+Vec3<T> vector_in(Random& random, const float (&x)[2], const float (&y)[2], const float (&z)[2]) {
+    const T at_x = static_cast<T>(random.in(x[0], x[1])), at_y = static_cast<T>(random.in(y[0], y[1]));
+    return Vec3<T>(at_x, at_y, static_cast<T>(random.in(z[0], z[1])));
+}
+
 /// Quads side by side above each other, their gaps seldom wider than the light.
 template <class T>
 LineScene<T> ten_quads() {
     LineScene<T> scene{"ten quads", {}};
     Random random(7);
     for (int i = 0; i < 10; ++i) {
-        const auto in = [&](double low, double high) {
-            return static_cast<T>(random.in(static_cast<float>(low), static_cast<float>(high)));
-        };
-        const Vec3<T> center(static_cast<T>(i) - T(4.5) + in(-0.2, 0.2), in(1, 2), in(-0.5, 0.5));
-        const Vec3<T> u(in(0.15, 0.3), in(-0.1, 0.1), in(-0.1, 0.1)), v(in(-0.1, 0.1), in(-0.1, 0.1), in(0.4, 0.8));
-        scene.casters.push_back(quad_mesh(center, u, v));
+        const Vec3<T> place(static_cast<T>(i) - T(4.5), T(0), T(0));
+        const Vec3<T> center = place + vector_in<T>(random, {-0.2F, 0.2F}, {1, 2}, {-0.5F, 0.5F});
+        const Vec3<T> u = vector_in<T>(random, {0.15F, 0.3F}, {-0.1F, 0.1F}, {-0.1F, 0.1F});
+        scene.casters.push_back(quad_mesh(center, u, vector_in<T>(random, {-0.1F, 0.1F}, {-0.1F, 0.1F}, {0.4F, 0.8F})));
     }
     return scene;
 }
@@ -64,12 +69,9 @@ LineScene<T> eight_quads() {
     LineScene<T> scene{"eight random quads", {}};
     Random random(9);
     for (int i = 0; i < 8; ++i) {
-        const auto in = [&](double low, double high) {
-            return static_cast<T>(random.in(static_cast<float>(low), static_cast<float>(high)));
-        };
-        const Vec3<T> center(in(-2, 2), in(1, 4), in(-0.8, 0.8));
-        const Vec3<T> u(in(0.15, 0.4), in(-0.3, 0.3), in(-0.3, 0.3)), v(in(-0.3, 0.3), in(-0.3, 0.3), in(0.3, 0.6));
-        scene.casters.push_back(quad_mesh(center, u, v));
+        const Vec3<T> center = vector_in<T>(random, {-2, 2}, {1, 4}, {-0.8F, 0.8F});
+        const Vec3<T> u = vector_in<T>(random, {0.15F, 0.4F}, {-0.3F, 0.3F}, {-0.3F, 0.3F});
+        scene.casters.push_back(quad_mesh(center, u, vector_in<T>(random, {-0.3F, 0.3F}, {-0.3F, 0.3F}, {0.3F, 0.6F})));
     }
     return scene;
 }

@@ -87,11 +87,7 @@ Setting paper() { return setting(skins(SkinTransition::linear, 2), "the paper, t
 std::vector<Setting> soft_shadow_map_settings(Sweep sweep) {
     std::vector<Setting> all = {setting(Options())};
     if (sweep == Sweep::one) return all;
-    const auto add = [&](const Setting& one) {
-        for (const Setting& there : all)
-            if (there.knobs == one.knobs) return;
-        all.push_back(one);
-    };
+    const auto add = [&](const Setting& one) { add_new(all, one); };
     add(paper());
     add(setting(skins(SkinTransition::exact, 2)));
     add(setting(inserted_skins(33)));

@@ -82,11 +82,7 @@ Options from_light_center(Options options) {
 std::vector<Setting> umbra_volume_settings(Sweep sweep) {
     std::vector<Setting> all = {setting(Options())};
     if (sweep == Sweep::one) return all;
-    const auto add = [&](const Setting& one) {
-        for (const Setting& there : all)
-            if (there.knobs == one.knobs) return;
-        all.push_back(one);
-    };
+    const auto add = [&](const Setting& one) { add_new(all, one); };
     add(setting(paper(), "the paper"));
     add(setting(d_buffer(2), "two layers"));
     add(setting(from_light_center(d_buffer(2))));
