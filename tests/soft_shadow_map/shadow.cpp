@@ -225,6 +225,21 @@ TEST_CASE("edges parallel to the light have no penumbra, those across it do") {
         CHECK(shadow_of(across, fixed(mode, 2)).visibility({0, 0, 0}) == doctest::Approx(0.5).epsilon(0.03));
 }
 
+TEST_CASE("a receiver in a plane through the light, all of whose points share a row") {
+    const LineScene<float> scene{"a box", {box_mesh<float>({0.2F, 3, 0.02F}, {0.4F, 0.3F, 0.5F})}};
+    Random random(8);
+    std::vector<Vec3<float>> points;
+    for (int i = 0; i < 2000; ++i) {
+        const float x = random.in(-4.0F, 4.0F);
+        points.emplace_back(x, random.in(-1.0F, 2.6F), 0.0F);
+    }
+    const LineTruth<float> truth(scene, points);
+    // a solid's silhouette is another one from each end of the light: skins know but two of them
+    for (const LinearMode mode : {LinearMode::skins, LinearMode::intervals, LinearMode::interval_mask})
+        CHECK(truth.rmse(SoftShadowMap<float>(scene.casters, scene.light, fixed(mode, 2))) <
+              (mode == LinearMode::skins ? .03 : .006));
+}
+
 TEST_CASE_TEMPLATE("a light of no length casts hard shadows", T, float, double) {
     LineScene<T> scene = wide_blocker<T>();
     scene.light.a = scene.light.b = Vec3<T>(T(0), T(6), T(0));
