@@ -9,7 +9,7 @@ Usage: tests/run.sh [--quick] [--mutants] [--no-install] [ctest's options]
 
 Installs what the tests need (Debian, Ubuntu), builds them below build/tests and runs them:
   g++/        C++17, -O2, the GLSL twins on a driver, every variant of compilation, the installed package
-  clang++/    C++20, -O1, every variant of compilation but GLM's macros
+  clang++/    C++20, -O1, every variant of compilation but GLM's macros and each header alone
   fast-math/  -O3 -ffast-math
   sanitize/   address and undefined-behaviour sanitizers
 

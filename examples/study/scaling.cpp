@@ -195,7 +195,8 @@ void measure_line_samples(const Effort& effort, Study& study) {
     for (const int samples : {2, 3, 5, 9, 17, 33}) {
         const LineFigure settings = line_figure(samples);
         stage.add("plain shadow maps", settings.plain, samples);
-        stage.add("skins", settings.skins, samples);
+        stage.add("skins, linear (the paper)", settings.linear, samples);
+        stage.add("skins, exact", settings.exact, samples);
         stage.add("intervals", settings.intervals, samples);
     }
     take_turns(stages, figure.name, effort.rounds);

@@ -101,10 +101,10 @@ struct VolumeFigure {
 };
 VolumeFigure volume_figure(int resolution = UmbraVolumeOptions().resolution);
 
-/// The paper's skins between two samples, what pictures of its figures show; and plain shadow maps, skins with exact
-/// transitions, and intervals of `samples` samples, what costs are compared of.
+/// The paper's skins between two samples, what pictures of its figures show; and plain shadow maps, skins with linear
+/// and with exact transitions, and intervals of `samples` samples, what costs are compared of.
 struct LineFigure {
-    Setting paper, plain, skins, intervals;
+    Setting paper, plain, linear, exact, intervals;
 };
 LineFigure line_figure(int samples = 2);
 

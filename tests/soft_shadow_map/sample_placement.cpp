@@ -137,7 +137,7 @@ TEST_CASE("samples by the narrowest gap see through it, where a test half-way ma
                                 {{-1.5F, 6, 0}, {1.5F, 6, 0}}};
     const LineTruth<float> truth(slit, floor_points<float>(2000, 3.0F, 1.5F));
     SoftShadowMapOptions options = options_of(LinearMode::skins, 2, 64);
-    options.narrowest_gap = true;
+    options.narrowest_gap = true, options.resolution = 256;
     const SoftShadowMap<float> shadow = shadow_of(slit, options);
     const double rmse = truth.rmse(shadow), two = truth.rmse(shadow_of(slit, options_of(LinearMode::skins, 2, 0)));
     MESSAGE("RMSE ", rmse, " with ", shadow.samples(), ", with two ", two);

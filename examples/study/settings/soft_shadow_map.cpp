@@ -114,8 +114,8 @@ std::vector<Setting> soft_shadow_map_settings(Sweep sweep) {
 }
 
 LineFigure line_figure(int samples) {
-    return {paper(), setting(fixed(LinearMode::hard, samples)), setting(skins(SkinTransition::exact, samples)),
-            setting(fixed(LinearMode::intervals, samples))};
+    return {paper(), setting(fixed(LinearMode::hard, samples)), setting(skins(SkinTransition::linear, samples)),
+            setting(skins(SkinTransition::exact, samples)), setting(fixed(LinearMode::intervals, samples))};
 }
 
 }  // namespace penumbra::study

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <penumbra/soft_shadow_map/discontinuity.hpp>
 #include <penumbra/soft_shadow_map/light_map.hpp>
 #include <utility>
 #include <vector>
