@@ -61,7 +61,7 @@ TEST_CASE("the two nearest surfaces, in any order of coming") {
         double depths[4], first = NearestSurfaces::none, second = NearestSurfaces::none;
         for (double& depth : depths) {
             depth = random.in(1.0, 9.0);
-            at.add(depth, 0.01 * depth, true);
+            CHECK(at.add(depth, 0.01 * depth, true) == (depth < first));
             second = depth < first ? first : std::min(second, depth), first = std::min(first, depth);
             CHECK(at.first == first);
             CHECK(at.second == second);

@@ -110,20 +110,11 @@ void compare(const penumbra::SoftShadowMapOptions& options) {
     }
 }
 
-/// One of each query and option.
-std::vector<penumbra::SoftShadowMapOptions> all_modes(int samples, int resolution) {
-    return {map_options(LinearMode::hard, SkinTransition::exact, samples, resolution),
-            map_options(LinearMode::skins, SkinTransition::linear, samples, resolution),
-            map_options(LinearMode::skins, SkinTransition::exact, samples, resolution),
-            map_options(LinearMode::intervals, SkinTransition::exact, samples, resolution),
-            map_options(LinearMode::interval_mask, SkinTransition::exact, samples, resolution)};
-}
-
 }  // namespace
 
 TEST_CASE("visibility is that of the C++, bit for bit, with every option") {
     for (const glm::ivec2& size : {glm::ivec2(2, 1), glm::ivec2(2, 97), glm::ivec2(3, 256), glm::ivec2(5, 97)})
-        for (const penumbra::SoftShadowMapOptions& options : all_modes(size.x, size.y)) compare(options);
+        for (const penumbra::SoftShadowMapOptions& options : all_map_modes(size.x, size.y)) compare(options);
 }
 
 TEST_CASE("segments in more than one row of texels, each read twice at most") {
@@ -147,7 +138,7 @@ TEST_CASE("segments in more than one row of texels, each read twice at most") {
 }
 
 TEST_CASE("of each map, a texel, its edges and positions are read") {
-    for (const penumbra::SoftShadowMapOptions& options : all_modes(5, 97)) {
+    for (const penumbra::SoftShadowMapOptions& options : all_map_modes(5, 97)) {
         if (has_segments(options)) continue;
         const MapCase query(map_scenes().front(), options, count);
         const std::size_t each = has_edges(options) ? 4 : 2;
@@ -184,7 +175,7 @@ TEST_CASE("all of the light is 1 where weights sum to less") {
 TEST_CASE("points that are not finite, on the light's plane or behind it, and all without casters, see everything") {
     constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float big = std::numeric_limits<float>::max();
-    for (const penumbra::SoftShadowMapOptions& options : all_modes(3, 16)) {
+    for (const penumbra::SoftShadowMapOptions& options : all_map_modes(3, 16)) {
         CAPTURE(map_name(options));
         for (const Scene& scene : map_scenes()) {
             CAPTURE(scene.name);

@@ -63,6 +63,15 @@ inline SoftShadowMapOptions map_options(LinearMode mode, SkinTransition transiti
     return options;
 }
 
+/// Every query with each of its options.
+inline std::vector<SoftShadowMapOptions> all_map_modes(int samples, int resolution) {
+    return {map_options(LinearMode::hard, SkinTransition::exact, samples, resolution),
+            map_options(LinearMode::skins, SkinTransition::linear, samples, resolution),
+            map_options(LinearMode::skins, SkinTransition::exact, samples, resolution),
+            map_options(LinearMode::intervals, SkinTransition::exact, samples, resolution),
+            map_options(LinearMode::interval_mask, SkinTransition::exact, samples, resolution)};
+}
+
 /// A shadow of a scene over a floor, points in it, and what they see by the C++.
 struct MapCase {
     SoftShadowMap<float> shadow;

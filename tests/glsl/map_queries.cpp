@@ -92,23 +92,13 @@ void check(const SoftShadowMapOptions& options, Api api, Route route) {
     CHECK(got.worst <= bound);
 }
 
-/// All that there is a query of, and the transitions of skins.
-std::vector<SoftShadowMapOptions> all_modes(int samples, int resolution) {
-    std::vector<SoftShadowMapOptions> result;
-    for (const LinearMode mode : {LinearMode::hard, LinearMode::intervals, LinearMode::interval_mask})
-        result.push_back(test::map_options(mode, SkinTransition::exact, samples, resolution));
-    for (const SkinTransition transition : {SkinTransition::linear, SkinTransition::exact})
-        result.push_back(test::map_options(LinearMode::skins, transition, samples, resolution));
-    return result;
-}
-
 }  // namespace
 
 TEST_CASE("visibility is that of the C++, in every mode, with two maps and more") {
-    for (const SoftShadowMapOptions& options : all_modes(3, 128)) check(options, Api::desktop, Route::direct);
+    for (const SoftShadowMapOptions& options : test::all_map_modes(3, 128)) check(options, Api::desktop, Route::direct);
     if (mutant) return;  // mutants.sh runs this a few hundred times
-    for (const SoftShadowMapOptions& options : all_modes(2, 256)) check(options, Api::desktop, Route::direct);
-    for (const SoftShadowMapOptions& options : all_modes(5, 97)) check(options, Api::desktop, Route::direct);
+    for (const SoftShadowMapOptions& options : test::all_map_modes(2, 256)) check(options, Api::desktop, Route::direct);
+    for (const SoftShadowMapOptions& options : test::all_map_modes(5, 97)) check(options, Api::desktop, Route::direct);
 }
 
 TEST_CASE("and so it is in ES, and in what SPIRV-Cross makes of it") {
@@ -116,6 +106,6 @@ TEST_CASE("and so it is in ES, and in what SPIRV-Cross makes of it") {
     for (const Api api : {Api::desktop, Api::es})
         for (const Route route : test::routes()) {
             if (api == Api::desktop && route == Route::direct) continue;
-            for (const SoftShadowMapOptions& options : all_modes(3, 128)) check(options, api, route);
+            for (const SoftShadowMapOptions& options : test::all_map_modes(3, 128)) check(options, api, route);
         }
 }

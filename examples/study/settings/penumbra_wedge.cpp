@@ -52,9 +52,7 @@ Setting setting(OverlapRule rule, SilhouetteFrom from, int bitmask_size = 32) {
 std::vector<Setting> penumbra_wedge_settings(Sweep sweep) {
     std::vector<Setting> all = {setting(Options())};
     if (sweep == Sweep::one) return all;
-    const auto add = [&](const Setting& one) {
-        if (one.knobs != all.front().knobs) all.push_back(one);
-    };
+    const auto add = [&](const Setting& one) { add_new(all, one); };
     for (const SilhouetteFrom from : {SilhouetteFrom::point, SilhouetteFrom::light_center}) {
         for (const OverlapRule rule :
              {OverlapRule::additive, OverlapRule::maximum, OverlapRule::product, OverlapRule::product_quadrants,

@@ -6,7 +6,6 @@
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
-#include <utility>
 #include <vector>
 
 namespace penumbra::detail {

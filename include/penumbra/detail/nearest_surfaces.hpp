@@ -15,11 +15,14 @@ struct NearestSurfaces {
     double slack = 0.0;  ///< of the first: what its depth changes by over the texel
     bool solid = false;  ///< the first belongs to a closed mesh
 
-    void add(double depth, double change, bool of_solid) {
-        if (depth < first)
+    /// True if the surface is the first now.
+    bool add(double depth, double change, bool of_solid) {
+        const bool nearest = depth < first;
+        if (nearest)
             second = first, first = depth, slack = change, solid = of_solid;
         else
             second = std::min(second, depth);
+        return nearest;
     }
     bool empty() const { return !(first < none); }
     bool has_inside() const { return solid && second < none; }

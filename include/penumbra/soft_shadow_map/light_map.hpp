@@ -94,28 +94,25 @@ class LightMapMaker {
         map.blocked = map.caster = map.receiver = Image<T>(size, size, none);
         map.bend = map.slack = Image<T>(size, size);
         Image<NearestSurfaces> nearest(size, size);
-        Image<double> slack(size, size);
         const Vec2<double> low(view_.slopes.min);
         const Vec2<double> texel = (Vec2<double>(view_.slopes.max) - low) / static_cast<double>(size);
         for (std::size_t m = 0; m < casters_.size(); ++m)
             draw(casters_[m], at, [&](int x, int y, double depth, const Vec3<double>& normal) {
                 const Vec3<double> ray(low.x + (x + 0.5) * texel.x, low.y + (y + 0.5) * texel.y, 1.0);
-                if (depth < nearest(x, y).first) {
-                    slack(x, y) = row_slack(normal, ray, at, texel.y, depth);
-                    map.bend(x, y) = static_cast<T>(bend(normal, ray, texel.x) / depth);
-                }
-                nearest(x, y).add(depth, depth_slack(normal, ray, texel, depth), solid_[m]);
+                if (!nearest(x, y).add(depth, depth_slack(normal, ray, texel, depth), solid_[m])) return;
+                map.slack(x, y) = static_cast<T>(row_slack(normal, ray, at, texel.y, depth));
+                map.bend(x, y) = static_cast<T>(bend(normal, ray, texel.x) / depth);
             });
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 const NearestSurfaces& here = nearest(x, y);
                 if (here.empty()) continue;
-                const bool solid = here.has_inside();
-                const double behind = here.first + here.slack;
                 map.caster(x, y) = static_cast<T>(here.first);
-                map.blocked(x, y) = static_cast<T>(solid ? std::min(behind, here.middle()) : behind);
-                const double inside = solid ? 1.0 / here.first - 1.0 / here.middle() : slack(x, y);
-                map.slack(x, y) = static_cast<T>(std::min(slack(x, y), inside));
+                map.blocked(x, y) = static_cast<T>(here.first + here.slack);
+                if (!here.has_inside()) continue;
+                const double inside = 1.0 / here.first - 1.0 / here.middle();
+                map.blocked(x, y) = std::min(map.blocked(x, y), static_cast<T>(here.middle()));
+                map.slack(x, y) = std::min(map.slack(x, y), static_cast<T>(inside));
             }
         for (const Mesh<double>& mesh : receivers_)
             draw(mesh, at, [&](int x, int y, double depth, const Vec3<double>&) {

@@ -10,6 +10,7 @@
 #include <penumbra/detail/error.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
+#include <penumbra/soft_shadow_map/linear_visibility.hpp>
 #include <penumbra/soft_shadow_map/options.hpp>
 #include <penumbra/soft_shadow_map/shadow.hpp>
 #include <string>
@@ -74,14 +75,9 @@ class SoftShadowMaps {
 
     /// Fraction of all lines that `point` (world space) sees, in [0, 1].
     T visibility(const Vec3<T>& point) const {
-        T sum = T(0);
-        bool whole = true;  // as weights need not sum to exactly 1
-        for (std::size_t i = 0; i < shadows_.size(); ++i) {
-            const T seen = shadows_[i].visibility(point);
-            sum += weights_[i] * seen;
-            whole = whole && seen >= T(1);
-        }
-        return whole ? T(1) : saturate(sum);
+        detail::SeenParts<T> parts;
+        for (std::size_t i = 0; i < shadows_.size(); ++i) parts.add(weights_[i], shadows_[i].visibility(point));
+        return parts.mean();
     }
     void visibility(const Vec3<T>* points, std::size_t count, T* result) const {
         for (std::size_t i = 0; i < count; ++i) result[i] = visibility(points[i]);

@@ -55,4 +55,22 @@ T skin_visibility(T share, T edge, T far, T receiver) {
     return behind > T(0) ? saturated_ratio(share * (edge - far), behind) : T(1);
 }
 
+namespace detail {
+
+/// A mean of what is seen of the parts of a light, exactly 1 where all of each is: weights need not sum to exactly 1.
+template <class T>
+class SeenParts {
+  public:
+    void add(T weight, T seen) {
+        sum_ += weight * seen;
+        whole_ = whole_ && seen >= T(1);
+    }
+    T mean() const { return whole_ ? T(1) : saturate(sum_); }
+
+  private:
+    T sum_ = T(0);
+    bool whole_ = true;
+};
+
+}  // namespace detail
 }  // namespace penumbra

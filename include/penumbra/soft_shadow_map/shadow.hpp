@@ -44,10 +44,10 @@ class SoftShadowMap {
         view_ = maker.view();
         const T step = options.step > 0.0F ? static_cast<T>(options.step) : static_cast<T>(1e-3 * maker.farthest());
         if (is_exact())
-            build<RowSegments<T>>(maker, half_length, step, segments_,
-                                  [&](const Maps& maps) { return RowSegments<T>(view_, maps, step); });
+            segments_ =
+                build(maker, half_length, step, [&](const Maps& maps) { return RowSegments<T>(view_, maps, step); });
         else
-            build<SkinMaps<T>>(maker, half_length, step, maps_, [&](const Maps& maps) {
+            maps_ = build(maker, half_length, step, [&](const Maps& maps) {
                 return SkinMaps<T>(view_, maps, options_.mode, options_.transition, options_.detector, step);
             });
     }
@@ -91,9 +91,9 @@ class SoftShadowMap {
         return options_.mode == LinearMode::intervals || options_.mode == LinearMode::interval_mask;
     }
 
-    /// Draws maps, more of them where `make`, which makes an Answer of maps, finds that they change it.
-    template <class Answer, class Make>
-    void build(const detail::LightMapMaker<T>& maker, T half_length, T step, Answer& answer, Make&& make) {
+    /// What `make` makes of maps, of more where they change what it answers.
+    template <class Make>
+    auto build(const detail::LightMapMaker<T>& maker, T half_length, T step, const Make& make) {
         std::vector<LightMap<T>> maps = even_maps(maker, half_length, options_.samples);
         if (options_.narrowest_gap && options_.most_samples > options_.samples) {
             T gap = LightMap<T>::none;
@@ -104,8 +104,8 @@ class SoftShadowMap {
         detail::refine_samples(maker, maps, options_.most_samples, static_cast<T>(options_.tolerance), make);
         Maps all;
         for (const LightMap<T>& map : maps) all.push_back(&map);
-        answer = make(all);
         samples_ = static_cast<int>(maps.size());
+        return make(all);
     }
     static std::vector<LightMap<T>> even_maps(const detail::LightMapMaker<T>& maker, T half_length, int count) {
         std::vector<LightMap<T>> maps;

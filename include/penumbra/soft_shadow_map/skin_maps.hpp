@@ -8,6 +8,7 @@
 #include <penumbra/soft_shadow_map/linear_visibility.hpp>
 #include <penumbra/soft_shadow_map/options.hpp>
 #include <penumbra/soft_shadow_map/visibility_map.hpp>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -71,8 +72,8 @@ class SkinMaps {
         const T row = view_.row(point_ls.y / point_ls.z), size = static_cast<T>(view_.resolution);
         if (!(row >= T(0) && row < size)) return T(1);
         const int y = static_cast<int>(row);
-        T sum = T(0), earlier = T(0);
-        bool whole = true;  // as weights need not sum to exactly 1
+        detail::SeenParts<T> parts;
+        T earlier = T(0);
         for (std::size_t i = 0; i < positions_.size(); ++i) {
             const T column = view_.column(slope_from(point, positions_[i]));
             LightMapTexel<T> texel{LightMap<T>::none, T(1), T(1)};
@@ -84,14 +85,11 @@ class SkinMaps {
                 if (is_part(before)) before = edge_visibility(edge.before, point, positions_[i - 1], positions_[i]);
                 if (is_part(after)) after = edge_visibility(edge.after, point, positions_[i + 1], positions_[i]);
             }
-            if (i > 0) {
-                const T seen = hard_ ? T(0.5) * (earlier + before) : std::min(T(1), earlier + before);
-                sum += weights_[i - 1] * seen;
-                whole = whole && seen >= T(1);
-            }
+            const T both = earlier + before;
+            if (i > 0) parts.add(weights_[i - 1], hard_ ? T(0.5) * both : std::min(T(1), both));
             earlier = after;
         }
-        return whole ? T(1) : saturate(sum);
+        return parts.mean();
     }
 
   private:
@@ -102,14 +100,14 @@ class SkinMaps {
         for (std::size_t k = 0; k < texels.size(); ++k)
             texels.data()[k] = {depths.data()[k], before.visible.empty() ? T(1) : before.visible.data()[k],
                                 after.visible.empty() ? T(1) : after.visible.data()[k]};
-        texels_.push_back(texels);
+        texels_.push_back(std::move(texels));
     }
     void add_edges(const Image<RowPoint<T>>& before, const Image<RowPoint<T>>& after) {
         Image<LightMapEdges<T>> edges(view_.resolution, view_.resolution);
         for (std::size_t k = 0; k < edges.size(); ++k)
             edges.data()[k] = {before.empty() ? RowPoint<T>{} : before.data()[k],
                                after.empty() ? RowPoint<T>{} : after.data()[k]};
-        edges_.push_back(edges);
+        edges_.push_back(std::move(edges));
     }
 
     LightMapView<T> view_;
