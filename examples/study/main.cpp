@@ -11,7 +11,7 @@
 #include "measure.hpp"
 #include "report.hpp"
 #include "scaling.hpp"
-#include "scene.hpp"
+#include "../scenes/scene.hpp"
 #include "settings.hpp"
 
 namespace {

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "result.hpp"
-#include "scene.hpp"
+#include "../scenes/scene.hpp"
 #include "settings.hpp"
 
 namespace penumbra::study {
+
+using namespace scenes;
 
 struct Effort {
     std::size_t points = 4096;  ///< that errors are measured at

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "picture.hpp"
+#include "../pictures/picture.hpp"
 #include "rays.hpp"
 #include "result.hpp"
 #include "view.hpp"
 
 namespace penumbra::study {
+
+using namespace pictures;
 
 enum class Part { umbra, penumbra, light };  // from dark to bright
 

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "ray_cost.hpp"
-#include "scene.hpp"
+#include "../scenes/scene.hpp"
 #include "timing.hpp"
 
 namespace penumbra::study {
+
+using namespace scenes;
 
 using Points = std::vector<Vec3<float>>;
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "error.hpp"
-#include "meshes.hpp"
+#include "../scenes/meshes.hpp"
 #include "progress.hpp"
 #include "rays.hpp"
 #include "timing.hpp"

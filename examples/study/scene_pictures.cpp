@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "parts.hpp"
-#include "picture.hpp"
+#include "../pictures/picture.hpp"
 
 namespace penumbra::study {
 namespace {

@@ -12,9 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "scene.hpp"
+#include "../scenes/scene.hpp"
 
 namespace penumbra::study {
+
+using namespace scenes;
 
 /// A method built for one scene: what is timed is `visibility`, over a whole batch on one thread.
 struct Built {

@@ -5,9 +5,11 @@
 #include <penumbra/reference/embree.hpp>
 #include <vector>
 
-#include "scene.hpp"
+#include "../scenes/scene.hpp"
 
 namespace penumbra::study {
+
+using namespace scenes;
 
 /// What the camera sees, in tiles of 8 × 8 pixels, as a renderer would shade them; pixels count row by row from the
 /// top. Only pixels that show a surface with the light's centre in front of it are asked; all others are black whatever

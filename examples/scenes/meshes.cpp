@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace penumbra::study {
+namespace penumbra::scenes {
 namespace {
 
 using Vec = Vec3<float>;
@@ -176,4 +176,4 @@ Mesh<float> import_mesh(const std::string& file) {
     return mesh;
 }
 
-}  // namespace penumbra::study
+}  // namespace penumbra::scenes

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace penumbra::study {
+namespace penumbra::scenes {
 
 /// Uniform numbers from a fixed seed, the same on every standard library.
 class Random {
@@ -58,4 +58,4 @@ Mesh<float> make_star(const Vec3<float>& center, float outer, float inner, float
 /// message for the user.
 Mesh<float> import_mesh(const std::string& file);
 
-}  // namespace penumbra::study
+}  // namespace penumbra::scenes

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace penumbra::study {
+namespace penumbra::scenes {
 namespace {
 
 using Rectangle = RectLight<float>;
@@ -118,4 +118,4 @@ Light as_kind(const Light& light, const std::string& kind) {
     return std::visit(converted, light);
 }
 
-}  // namespace penumbra::study
+}  // namespace penumbra::scenes

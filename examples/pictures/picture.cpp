@@ -15,7 +15,7 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace penumbra::study {
+namespace penumbra::pictures {
 namespace {
 
 constexpr Rgb white{255, 255, 255}, ink{34, 36, 40}, soft_ink{98, 102, 110}, not_asked{196, 198, 202};
@@ -230,4 +230,4 @@ void write_png(const std::filesystem::path& file, const Image<Rgb>& picture) {
         throw std::runtime_error(fmt::format("cannot write picture '{}'", file.string()));
 }
 
-}  // namespace penumbra::study
+}  // namespace penumbra::pictures

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-namespace penumbra::study {
+namespace penumbra::scenes {
 
 using Light = std::variant<RectLight<float>, DiskLight<float>, LinearLight<float>>;
 
@@ -29,4 +29,4 @@ std::vector<LinearLight<float>> rim(const Light& light);
 /// rectangle's first side or a disk's diameter. Of a line, the square or disk around it that emits downwards.
 Light as_kind(const Light& light, const std::string& kind);
 
-}  // namespace penumbra::study
+}  // namespace penumbra::scenes

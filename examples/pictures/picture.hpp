@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace penumbra::study {
+namespace penumbra::pictures {
 
 /// An sRGB-encoded colour.
 using Rgb = glm::vec<3, std::uint8_t, glm::defaultp>;
@@ -51,4 +51,4 @@ Image<Rgb> side_by_side(const std::vector<Panel>& panels);
 /// Throws std::runtime_error if the file cannot be written.
 void write_png(const std::filesystem::path& file, const Image<Rgb>& picture);
 
-}  // namespace penumbra::study
+}  // namespace penumbra::pictures

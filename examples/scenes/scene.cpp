@@ -10,7 +10,7 @@
 
 #include "meshes.hpp"
 
-namespace penumbra::study {
+namespace penumbra::scenes {
 namespace {
 
 using Vec = Vec3<float>;
@@ -355,4 +355,4 @@ Scene make_scene(const std::string& name) {
     throw std::runtime_error(fmt::format("there is no scene '{}'", name));
 }
 
-}  // namespace penumbra::study
+}  // namespace penumbra::scenes

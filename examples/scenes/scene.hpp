@@ -8,7 +8,7 @@
 
 #include "light.hpp"
 
-namespace penumbra::study {
+namespace penumbra::scenes {
 
 /// A pinhole camera; `width_tan` is the tangent of half the horizontal field of view.
 struct Camera {
@@ -55,4 +55,4 @@ Scene under(Scene scene, const std::string& kind, float size);
 /// The scene `spheres-low`, with `side` × `side` spheres.
 Scene low_spheres(int side);
 
-}  // namespace penumbra::study
+}  // namespace penumbra::scenes
