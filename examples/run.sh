@@ -1,21 +1,26 @@
 #!/usr/bin/env bash
-# The study: accuracy against time; see usage below.
+# The study, and the example in real time; see usage below.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
     cat <<'END'
-Usage: examples/run.sh [--no-install] [--benchmark] [options of the program]
+Usage: examples/run.sh [--window | --headless | --timings | --scaling | --benchmark] [--no-install]
+                       [options of the program]
 
 Installs what the examples need (Debian, Ubuntu), builds them in build/examples and runs the study: each method
 beside ray-traced truth on many scenes, with what it costs. It prints a table and writes out/study/index.html.
 
-  --scaling     measure cost against the size of the scene instead; writes out/scaling/index.html
-  --benchmark   run the benchmark of the prefilters instead; writes out/benchmark/prefilter.json
+  --window      the methods in real time, in a window, beside the truth
+  --headless    the same without a window: pictures, times, comparison with the C++
+  --timings     time every method on the GPU; writes out/opengl/timings.csv
+  --scaling     measure cost against the size of the scene; writes out/scaling/index.html
+  --benchmark   run the benchmark of the prefilters; writes out/benchmark/prefilter.json
   --no-install  take the packages as they are
   --help        this text and, once built, the program's own options
 Further options go to the program: `examples/run.sh --scene bunny --quick`,
-`examples/run.sh --mesh teapot.obj --out /tmp/teapot`.
+`examples/run.sh --mesh teapot.obj --out /tmp/teapot`, `examples/run.sh --window --scene bunny --light disk`,
+`examples/run.sh --headless --scene spheres --method occlusion_texture --panels --out spheres.png`.
 END
 }
 
@@ -30,6 +35,9 @@ while (($#)); do
         --help | -h) help=true ;;
         --benchmark) program=prefilter_benchmark ;;
         --no-install) export PENUMBRA_NO_INSTALL=1 ;;
+        --window) program=opengl_example ;;
+        --headless) program=opengl_example options+=("$1") ;;
+        --timings) program=opengl_example options+=("$1" "$root/out/opengl/timings.csv") ;;
         --scaling) folder=scaling options+=("$1") ;;
         --out) out=${2:?--out needs a folder} && shift ;;
         --out=*) out=${1#--out=} ;;
@@ -48,15 +56,21 @@ source "$root/.ci/setup.sh"
 # pictures, plots and the page are made with.
 require_packages g++ cmake ninja-build libglm-dev libembree-dev libcli11-dev nlohmann-json3-dev libfmt-dev \
     libassimp-dev zlib1g-dev libstb-dev libbenchmark-dev libopencv-imgproc-dev \
+    libepoxy-dev libegl-dev libgl1 libgl1-mesa-dri libglfw3-dev libimgui-dev \
     glmark2-data fonts-dejavu-core gnuplot-nox libjs-chart.js
 
 echo "== Building"
 cmake -S "$root" -B "$build" -DPENUMBRA_BUILD_TESTS=OFF
-cmake --build "$build"
+cmake --build "$build" --target "$program"
 
 if [[ $program == study ]]; then
     echo "== Running"
     "$build/study" --out "${out:-$root/out/$folder}" "${options[@]}"
+elif [[ $program == opengl_example ]]; then
+    echo "== Running"
+    mkdir -p "$root/out/opengl"
+    if [[ $out ]]; then options+=(--out "$out"); fi
+    "$build/opengl_example" "${options[@]}"
 else
     mkdir -p "$root/out/benchmark"
     report=$root/out/benchmark/prefilter.json

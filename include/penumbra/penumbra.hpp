@@ -20,6 +20,7 @@
 #include <penumbra/penumbra_wedge/caster_index.hpp>
 #include <penumbra/penumbra_wedge/clip.hpp>
 #include <penumbra/penumbra_wedge/coverage.hpp>
+#include <penumbra/penumbra_wedge/fixed_silhouettes.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/mask_blending.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>
@@ -28,6 +29,7 @@
 #include <penumbra/penumbra_wedge/point_tile.hpp>
 #include <penumbra/penumbra_wedge/radial_part.hpp>
 #include <penumbra/penumbra_wedge/shadow.hpp>
+#include <penumbra/penumbra_wedge/shadow_frustum.hpp>
 #include <penumbra/penumbra_wedge/silhouette.hpp>
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
 #include <penumbra/penumbra_wedge/wedge.hpp>
@@ -38,6 +40,8 @@
 #include <penumbra/soft_shadow_map/discontinuity.hpp>
 #include <penumbra/soft_shadow_map/light_interval.hpp>
 #include <penumbra/soft_shadow_map/light_map.hpp>
+#include <penumbra/soft_shadow_map/light_map_geometry.hpp>
+#include <penumbra/soft_shadow_map/light_map_maker.hpp>
 #include <penumbra/soft_shadow_map/light_map_texels.hpp>
 #include <penumbra/soft_shadow_map/line_lights.hpp>
 #include <penumbra/soft_shadow_map/linear_visibility.hpp>
@@ -52,7 +56,10 @@
 #include <penumbra/umbra_volume/cut_share.hpp>
 #include <penumbra/umbra_volume/d_buffer.hpp>
 #include <penumbra/umbra_volume/d_buffer_builder.hpp>
+#include <penumbra/umbra_volume/d_buffer_geometry.hpp>
 #include <penumbra/umbra_volume/d_buffer_texels.hpp>
+#include <penumbra/umbra_volume/d_buffer_vertices.hpp>
+#include <penumbra/umbra_volume/d_buffer_view.hpp>
 #include <penumbra/umbra_volume/disk_coverage.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>
 #include <penumbra/umbra_volume/edge_sum.hpp>

@@ -28,6 +28,7 @@
 #ifndef PENUMBRA_WITHOUT_VOLUMES
 #include "../../shaders/penumbra/umbra_volume/cut_share.glsl"
 #include "../../shaders/penumbra/umbra_volume/d_buffer.glsl"
+#include "../../shaders/penumbra/umbra_volume/d_buffer_view.glsl"
 #include "../../shaders/penumbra/umbra_volume/disk_coverage.glsl"
 #include "../../shaders/penumbra/umbra_volume/disk_visibility.glsl"
 #include "../../shaders/penumbra/umbra_volume/extrusion.glsl"
@@ -138,6 +139,7 @@ struct DBufferQuery {
 #undef PENUMBRA_SUMMED_AREA_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_CUT_SHARE_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_D_BUFFER_GLSL
+#undef PENUMBRA_UMBRA_VOLUME_D_BUFFER_VIEW_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_DISK_COVERAGE_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_DISK_VISIBILITY_GLSL
 #undef PENUMBRA_UMBRA_VOLUME_EXTRUSION_GLSL

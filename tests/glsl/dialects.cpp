@@ -88,6 +88,10 @@ std::map<std::string, std::vector<std::string>> calls() {
                                   "; view.resolution = int(I(4)); vec3 at = vec3(I(5), I(6), I(7)); ";
     result["soft_shadow_map/skin_maps"] = {light_map +
                                            "O(0) = penumbra_visibility(wedges, wedges, view, int(I(8)), at);"};
+    result["soft_shadow_map/visibility_map"] = {
+        light_map +
+        "penumbra_VisibilityChannel c = penumbra_visibility_channel(wedges, tables, tables, view, ivec2(at.xy), "
+        "int(at.z), I(8), I(9), I(10), I(11)); O(0) = c.visible + c.edge.slope + c.edge.inverse_depth;"};
     result["soft_shadow_map/row_segments"].push_back(light_map +
                                                      "O(0) = penumbra_visibility(wedges, view, I(8), I(9), at);");
     result["soft_shadow_map/row_segments"].push_back(
@@ -109,6 +113,7 @@ std::string program(const std::string& snippet, const std::vector<std::string>& 
         "layout(set = 0, binding = 2) uniform highp sampler2DArray slices;\n"
         "layout(set = 0, binding = 3) uniform highp usampler2DArray sums;\n"
         "layout(set = 0, binding = 4) uniform highp sampler2D wedges;\n"
+        "layout(set = 0, binding = 5) uniform highp usampler2D tables;\n"
         "#define I(k) penumbra_in[penumbra_at + (k)]\n#define O(k) penumbra_out[penumbra_at + (k)]\n" +
         shipped(snippet + ".glsl") + "void main() {\n    int penumbra_at = 16 * int(gl_GlobalInvocationID.x);\n";
     for (const std::string& body : bodies) text += "    { " + body + " }\n    penumbra_at += 1000000;\n";
@@ -126,7 +131,7 @@ bool crosses(const test::Folder& folder, const std::string& text, const std::str
            folder.run("spirv-cross s.spv --hlsl --shader-model 60 --output s60.hlsl") &&
            folder.run("glslangValidator -D -V -e main -S " + stage + " s50.hlsl -o again.spv") &&
            folder.run("glslangValidator -D -V -e main -S " + stage + " s60.hlsl -o again.spv") &&
-           folder.run("spirv-cross s.spv --msl --output s.metal") &&
+           folder.run("spirv-cross s.spv --msl --msl-version 20100 --output s.metal") &&
            folder.run("spirv-cross s.spv --es --version 310 --output es." + stage) &&
            folder.run("glslangValidator es." + stage);
 }
@@ -221,6 +226,38 @@ TEST_CASE("passes and queries compile with every option") {
                 check("soft_shadow_map/skin_maps.glsl", "frag", version,
                       {"SOFT_SHADOW_MAP_HARD " + a, "SOFT_SHADOW_MAP_EDGES " + b}, main);
             check("soft_shadow_map/row_segments.glsl", "frag", version, {"SOFT_SHADOW_MAP_MASK " + a}, main);
+        }
+        for (int rule = 0; rule < 6; ++rule)
+            for (const std::string pass : {"blend", "copy"})
+                check("penumbra_wedge/silhouette_" + pass + ".frag", "frag", version,
+                      {"PENUMBRA_WEDGE_OVERLAP " + std::to_string(rule)}, "");
+        for (int rule = 0; rule < 6; ++rule)
+            check("penumbra_wedge/silhouette_blend.frag", "frag", version,
+                  {"PENUMBRA_WEDGE_OVERLAP " + std::to_string(rule), "SILHOUETTE_WITHIN 1"}, "");
+        check("penumbra_wedge/silhouette_frustum.vert", "vert", version, {"SILHOUETTE_WITHIN 1"}, "");
+        for (const std::string draw : {"0", "1", "2"})
+            check("umbra_volume/casters.frag", "frag", version, {"CASTERS " + draw}, "");
+        for (const std::string depth : {"0", "1"}) {
+            check("umbra_volume/blocking.frag", "frag", version, {"UMBRA_VOLUME_DEPTH " + depth}, "");
+            for (const std::string layer : {"0", "1"})
+                for (const std::string layers : {"1", "2"})
+                    check(
+                        "umbra_volume/volumes.frag", "frag", version,
+                        {"UMBRA_VOLUME_LAYER " + layer, "UMBRA_VOLUME_LAYERS " + layers, "UMBRA_VOLUME_DEPTH " + depth},
+                        "");
+        }
+        for (const std::string map : {"0", "1", "2"})
+            check("soft_shadow_map/light_map.frag", "frag", version, {"LIGHT_MAP " + map}, "");
+        for (const std::string detector : {"0", "1"}) {
+            const std::string steps = "SOFT_SHADOW_MAP_DETECTOR " + detector;
+            check("soft_shadow_map/discontinuities.frag", "frag", version, {steps}, "");
+            for (const std::string transition : {"0", "1", "2"})
+                for (const std::string hard : {"0", "1"})
+                    for (const std::string solid : {"0", "1"})
+                        check("soft_shadow_map/skins.frag", "frag", version,
+                              {steps, "SOFT_SHADOW_MAP_TRANSITION " + transition, "SOFT_SHADOW_MAP_HARD " + hard,
+                               "SOFT_SHADOW_MAP_SOLID " + solid},
+                              "");
         }
         // all methods in one shader
         check("penumbra_wedge/shadow.glsl", "frag", version, {},

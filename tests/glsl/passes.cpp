@@ -50,23 +50,24 @@ int wrong_levels(const Image<Texel>& image, Build&& build) {
     return wrong;
 }
 
-int wrong_sums(const Texture& table, const Image<Texel>& image) {
-    const std::vector<std::uint32_t> result = table.sums(0);
+/// Of a table of four slices, or of four tables of one.
+int wrong_sums(const Texture& table, const Image<Texel>& image, int channels) {
     int wrong = 0;
     for (int c = 0; c < 4; ++c) {
+        const std::vector<std::uint32_t> result = table.sums(channels == 4 ? 0 : c);
         Image<std::uint8_t> slice(image.width(), image.height());
         for (std::size_t i = 0; i < slice.size(); ++i) slice.data()[i] = image.data()[i][c];
         const SummedArea<std::uint32_t> truth(slice);
         for (std::size_t i = 0; i < result.size() / 4; ++i)
-            wrong += result[4 * i + static_cast<std::size_t>(c)] != truth.data()[i];
+            wrong += result[4 * i + static_cast<std::size_t>(channels == 4 ? c : 0)] != truth.data()[i];
     }
     return wrong;
 }
 
-/// Draws what slice_capture.frag captures of the casters, `capture` being one of its three draws.
+/// Draws what slice_capture.frag captures of the casters, `capture` being one of its draws.
 void draw_capture(const Context& context, const std::vector<Mesh<float>>& casters, const LightFrame<float>& frame,
                   const SliceCamera<float>& camera, const SliceRange<float>& range, int capture,
-                  const Texture& target) {
+                  const std::vector<std::pair<const Texture*, int>>& targets) {
     const int groups = (range.count + 3) / 4;
     const Program program(
         context, "occlusion_texture/slice_capture.vert", "occlusion_texture/slice_capture.frag",
@@ -86,9 +87,9 @@ void draw_capture(const Context& context, const std::vector<Mesh<float>>& caster
     program.set("penumbra_range_thickness", range.thickness);
     program.set("penumbra_range_count", range.count);
     program.set("penumbra_first", 0);
-    target.attach(0, groups);
+    Texture::attach(targets);
     glEnable(GL_BLEND);
-    glBlendEquation(capture == 1 ? GL_MAX : GL_FUNC_ADD);
+    glBlendEquation(capture == 1 || capture == 3 ? GL_MAX : GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE);
     for (const Mesh<float>& mesh : casters) {
         const bool closed = is_closed(edge_adjacency(mesh));
@@ -146,22 +147,33 @@ TEST_CASE("summed-area tables of fragment and compute passes are the C++'s, bit 
             slices.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, image.data());
 
             const Texture tables[2] = {{GL_RGBA32UI, width, height, 1}, {GL_RGBA32UI, width, height, 1}};
+            const Texture apart(GL_R32UI, width, height, 4);
             const Program step(context, "occlusion_texture/full_screen.vert", "occlusion_texture/summed_area_step.frag",
                                {});
+            const Program last(context, "occlusion_texture/full_screen.vert", "occlusion_texture/summed_area_step.frag",
+                               {"PENUMBRA_STEP_CHANNELS 1"});
             std::vector<glm::ivec2> reaches{{0, 0}};
-            for (int reach = 1; reach < width; reach *= 2) reaches.emplace_back(reach, 0);
-            for (int reach = 1; reach < height; reach *= 2) reaches.emplace_back(0, reach);
+            for (int reach = 1; reach < width; reach *= 4) reaches.emplace_back(reach, 0);
+            for (int reach = 1; reach < height; reach *= 4) reaches.emplace_back(0, reach);
             int written = 0;
+            const auto draw = [&](const Program& program, const Texture& sums, const glm::ivec2& reach) {
+                program.use();
+                slices.bind(0), sums.bind(1);
+                program.set("penumbra_slices", 0), program.set("penumbra_sums", 1);
+                program.set("penumbra_layer", 0), program.set("penumbra_reach", reach);
+                program.draw_full_screen();
+            };
             for (const glm::ivec2& reach : reaches) {
-                step.use();
-                slices.bind(0), tables[written].bind(1);
-                step.set("penumbra_slices", 0), step.set("penumbra_sums", 1);
-                step.set("penumbra_layer", 0), step.set("penumbra_reach", reach);
+                if (reach == reaches.back()) {
+                    apart.attach(0, 4);
+                    draw(last, tables[written], reach);
+                }
                 written = 1 - written;
                 tables[written].attach(0, 1);
-                step.draw_full_screen();
+                draw(step, tables[1 - written], reach);
             }
-            CHECK(wrong_sums(tables[written], image) == 0);
+            CHECK(wrong_sums(tables[written], image, 4) == 0);
+            CHECK(wrong_sums(apart, image, 1) == 0);
 
             const Program rows(context, "occlusion_texture/summed_area_scan.comp", {"PENUMBRA_SCAN_COLUMNS 0"});
             const Program columns(context, "occlusion_texture/summed_area_scan.comp", {"PENUMBRA_SCAN_COLUMNS 1"});
@@ -176,7 +188,18 @@ TEST_CASE("summed-area tables of fragment and compute passes are the C++'s, bit 
             tables[0].bind_image(1, GL_READ_ONLY, GL_RGBA32UI);
             glDispatchCompute(static_cast<GLuint>(width), 1, 1);
             glMemoryBarrier(GL_ALL_BARRIER_BITS);
-            CHECK(wrong_sums(tables[1], image) == 0);
+            CHECK(wrong_sums(tables[1], image, 4) == 0);
+
+            const Program one_each(context, "occlusion_texture/summed_area_scan.comp",
+                                   {"PENUMBRA_SCAN_COLUMNS 1", "PENUMBRA_SCAN_CHANNELS 1"});
+            const Texture one_a_layer(GL_R32UI, width, height, 4);
+            one_each.use();
+            one_each.set("penumbra_layer", 0);
+            one_a_layer.bind_image(0, GL_WRITE_ONLY, GL_R32UI);
+            tables[0].bind_image(1, GL_READ_ONLY, GL_RGBA32UI);
+            glDispatchCompute(static_cast<GLuint>(width), 1, 1);
+            glMemoryBarrier(GL_ALL_BARRIER_BITS);
+            CHECK(wrong_sums(one_a_layer, image, 1) == 0);
         }
     }
 }
@@ -203,7 +226,16 @@ TEST_CASE("slices captured on the driver are the C++'s, but for texels on edges"
             windings(GL_RGBA16F, camera.width, camera.height, groups);
         const Texture* captured[] = {&masks, &depths, &windings};
         for (int capture = 0; capture < 3; ++capture)
-            draw_capture(context, casters, frame, camera, range, capture, *captured[capture]);
+            draw_capture(context, casters, frame, camera, range, capture,
+                         {{captured[capture], 0}, {captured[capture], 1}});
+        const Texture masks_at_once(GL_RGBA8, camera.width, camera.height, groups),
+            depths_at_once(GL_RGBA8, camera.width, camera.height, groups);
+        draw_capture(context, casters, frame, camera, range, 3,
+                     {{&masks_at_once, 0}, {&depths_at_once, 0}, {&masks_at_once, 1}, {&depths_at_once, 1}});
+        for (int group = 0; group < groups; ++group) {
+            CHECK(masks_at_once.bytes(group) == masks.bytes(group));
+            CHECK(depths_at_once.bytes(group) == depths.bytes(group));
+        }
 
         const Texture final_masks(GL_RGBA8, camera.width, camera.height, groups),
             final_depths(GL_RGBA8, camera.width, camera.height, groups);

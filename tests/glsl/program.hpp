@@ -54,7 +54,7 @@ class Texture {
         glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
                         levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        const bool integers = format == GL_RGBA32UI;
+        const bool integers = format == GL_RGBA32UI || format == GL_R32UI;
         for (int layer = 0; layer < layers; ++layer) {
             attach(layer, 1);
             const GLuint none[4] = {0, 0, 0, 0};
@@ -117,7 +117,7 @@ class Texture {
         read(layer, GL_RGBA, GL_FLOAT, result.data());
         return result;
     }
-    /// Of an RGBA32UI layer.
+    /// Of an RGBA32UI or R32UI layer, four numbers a texel.
     std::vector<std::uint32_t> sums(int layer) const {
         std::vector<std::uint32_t> result(texels() * 4);
         read(layer, GL_RGBA_INTEGER, GL_UNSIGNED_INT, result.data());

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <penumbra/penumbra_wedge/wedge_texels.hpp>
 #include <stdexcept>
 #include <vector>
@@ -45,7 +46,9 @@ TEST_CASE("texels hold every node, edge and face of the tree") {
         const WedgeTexels texels = wedge_texels(shadow);
         const Reader at{texels.texels};
         REQUIRE(texels.texels.width() == 1024);
-        REQUIRE(texels.nodes == static_cast<int>(5 * tree.nodes.size()));
+        const bool from_light = from == SilhouetteFrom::light_center;
+        const auto all = detail::SilhouetteInserter<float>(tree, from_light).result();
+        REQUIRE(texels.nodes == static_cast<int>(5 * all.nodes.size()));
         CHECK(texels.scale == shadow.scale());
         CHECK(texels.half_size == shadow.scaled_half_size());
         CHECK(texels.tolerance == shadow.index().tolerance());
@@ -53,9 +56,9 @@ TEST_CASE("texels hold every node, edge and face of the tree") {
         const auto coefficient = [&](const detail::WedgeFace<float>& f) {
             return from == SilhouetteFrom::light_center ? static_cast<float>(f.from_light) : f.solid ? 0.0F : 1.0F;
         };
-        std::size_t edges = 0, faces = 0, beside_none = 0, caps = 0;
-        for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
-            const detail::WedgeNode<float>& node = tree.nodes[n];
+        std::size_t edges = 0, fixed_edges = 0, faces = 0, beside_none = 0, caps = 0;
+        for (std::size_t n = 0; n < all.nodes.size(); ++n) {
+            const detail::WedgeNode<float>& node = all.nodes[n].node;
             const float texel = static_cast<float>(5 * n);
             const glm::vec4 items = at(texel, 4);
             const int traits = static_cast<int>(at(texel, 1).w);
@@ -67,11 +70,26 @@ TEST_CASE("texels hold every node, edge and face of the tree") {
             CHECK((traits >> 3 & 1) == int(node.solid));
             CHECK((traits >> 4 & 1) == int(node.simple));
             CHECK((traits >> 5 & 3) - 1 == node.least);
-            CHECK((traits >> 7) - 1 == node.most);
+            CHECK((traits >> 7 & 3) - 1 == node.most);
+            CHECK((traits >> 9 & 1) == int(all.nodes[n].points == detail::WedgePoints::beyond));
+            CHECK((traits >> 10 & 1) == int(all.nodes[n].points == detail::WedgePoints::not_beyond));
             CHECK(same(at(texel, 2), node.normal_min, node.offset_min));
             CHECK(same(at(texel, 3), node.normal_max, node.offset_max));
             REQUIRE(items.y - items.x == static_cast<float>(2 * node.edge_count));
             REQUIRE(items.w - items.z == static_cast<float>(4 * node.owned_faces));
+            if (all.nodes[n].is_fixed) {
+                for (std::size_t e = 0; e < node.edge_count; ++e) {
+                    const detail::FixedEdge<float>& edge = all.edges[node.first_edge + e];
+                    const glm::vec4 a = at(items.x + static_cast<float>(2 * e));
+                    const glm::vec4 b = at(items.x + static_cast<float>(2 * e), 1);
+                    CHECK(Vec3<float>(a) == edge.a);
+                    CHECK(Vec3<float>(b) == edge.b);
+                    CHECK(std::max(a.w, b.w) == 0.0F);  // as if beside caps
+                    CHECK(a.w - b.w == static_cast<float>(edge.coefficient));
+                    ++fixed_edges;
+                }
+                continue;
+            }
             for (std::size_t f = 0; f < node.face_count; ++f) {
                 const detail::WedgeFace<float>& face = tree.faces[node.first_face + f];
                 CHECK(same_face(at, items.z + static_cast<float>(4 * f), face, coefficient(face)));
@@ -97,9 +115,19 @@ TEST_CASE("texels hold every node, edge and face of the tree") {
         }
         CHECK(edges == tree.edges.size());
         CHECK(faces == tree.faces.size());
+        CHECK(fixed_edges == all.edges.size());
+        CHECK((fixed_edges > 0) == from_light);
         CHECK(beside_none > 0);
         CHECK(caps > 0);
-        CHECK(texels.texels.size() < 5 * tree.nodes.size() + 2 * edges + 4 * faces + 1024);
+        CHECK(texels.texels.size() < 5 * all.nodes.size() + 2 * (edges + fixed_edges) + 4 * faces + 1024);
+
+        REQUIRE(texels.meshes.size() == 3);
+        for (const glm::ivec2& mesh : texels.meshes) {
+            const float first = static_cast<float>(mesh.x);
+            CHECK((static_cast<int>(at(first, 1).w) & 1) == 1);
+            // its silhouette, if there is one, then itself
+            CHECK(at(from_light ? at(first).w : first).w == static_cast<float>(mesh.y));
+        }
     }
 }
 

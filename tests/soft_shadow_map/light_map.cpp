@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <penumbra/soft_shadow_map/light_map.hpp>
+#include <penumbra/soft_shadow_map/light_map_maker.hpp>
 #include <vector>
 
 #include "soft_shadow_map/line_scenes.hpp"
@@ -15,7 +16,7 @@ namespace {
 template <class T>
 detail::LightMapMaker<T> maker_of(const std::vector<Mesh<T>>& casters, int resolution = 256) {
     const LightFrame<T> frame = light_frame(light_along_x<T>(), Vec3<T>(T(0), T(-1), T(0)));
-    return detail::LightMapMaker<T>(casters, {line_scene_floor<T>()}, frame, T(1), resolution);
+    return detail::LightMapMaker<T>(light_map_geometry(casters, {line_scene_floor<T>()}, frame, T(1), resolution));
 }
 
 }  // namespace
@@ -32,6 +33,18 @@ TEST_CASE_TEMPLATE("texels and slopes are each other's inverse; a point is in th
     }
     CHECK(!view.empty());
     CHECK(LightMapView<T>().empty());
+}
+
+TEST_CASE_TEMPLATE("positions from end to end, the ends exactly", T, float, double) {
+    for (const int count : {2, 3, 10, 33}) {
+        CHECK(even_position(T(0.7), 0, count) == T(-0.7));
+        CHECK(even_position(T(0.7), count - 1, count) == T(0.7));
+        for (int i = 0; i < count; ++i) {
+            const double share = static_cast<double>(i) / (count - 1);
+            CHECK(static_cast<double>(even_position(T(0.7), i, count)) == doctest::Approx(1.4 * share - 0.7));
+            CHECK(even_position(T(0), i, count) == T(0));
+        }
+    }
 }
 
 TEST_CASE_TEMPLATE("maps see what is there: depths of an oblique quad by its plane, from every position", T, float,

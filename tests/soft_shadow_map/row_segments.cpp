@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <penumbra/soft_shadow_map/light_map_maker.hpp>
 #include <penumbra/soft_shadow_map/row_segments.hpp>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace {
 template <class T>
 RowSegments<T> segments_of(const std::vector<Mesh<T>>& casters, const std::vector<T>& positions, int resolution = 256) {
     const LightFrame<T> frame = light_frame(light_along_x<T>(), Vec3<T>(T(0), T(-1), T(0)));
-    const detail::LightMapMaker<T> maker(casters, {}, frame, T(1), resolution);
+    const detail::LightMapMaker<T> maker(light_map_geometry(casters, {}, frame, T(1), resolution));
     std::vector<LightMap<T>> maps;
     for (const T position : positions) maps.push_back(maker.make(position));
     std::vector<const LightMap<T>*> all;

@@ -27,8 +27,8 @@ SoftShadowMap<T> shadow_of(const LineScene<T>& scene, const SoftShadowMapOptions
 
 template <class T>
 detail::LightMapMaker<T> maker_of(const std::vector<Mesh<T>>& casters) {
-    return detail::LightMapMaker<T>(casters, {}, light_frame(light_along_x<T>(), Vec3<T>(T(0), T(-1), T(0))), T(1),
-                                    512);
+    const LightFrame<T> frame = light_frame(light_along_x<T>(), Vec3<T>(T(0), T(-1), T(0)));
+    return detail::LightMapMaker<T>(light_map_geometry(casters, {}, frame, T(1), 512));
 }
 
 }  // namespace

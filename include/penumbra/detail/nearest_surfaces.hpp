@@ -30,13 +30,14 @@ struct NearestSurfaces {
 };
 
 /// What the depth of a plane with this normal changes by over a texel of a map whose ray has slope (x / z, y / z, 1),
-/// at `depth`; at most 5 % of it. Any length of the normal.
+/// at `depth`; at least 1e-5 of it, for what renderers round of points on the plane, and at most 5 %. Any length of the
+/// normal.
 inline double depth_slack(const Vec3<double>& normal, const Vec3<double>& ray, const Vec2<double>& texel_size,
                           double depth) {
     // along the plane, depth is k / (n · slope)
     const double facing = std::abs(glm::dot(normal, ray));
     const double change = (std::abs(normal.x) * texel_size.x + std::abs(normal.y) * texel_size.y) * depth;
-    return std::min(change, facing * 0.05 * depth) / std::max(facing, 1e-300);
+    return std::max(std::min(change, facing * 0.05 * depth) / std::max(facing, 1e-300), 1e-5 * depth);
 }
 
 }  // namespace penumbra::detail

@@ -10,20 +10,25 @@
 // | 2       | normal_min                                           | offset_min                                   |
 // | 3       | normal_max                                           | offset_max                                   |
 // | 4       | its first edge, the end of its edges, its first face | the end of the faces that it owns            |
-// | edge: 0 | a                                                    | the face on the left, 0 if none, −1 if a cap |
+// | edge: 0 | a                                                    | the face on the left, or how often it counts |
 // | 1       | b                                                    | the same on the right                        |
 // | face: 0 | normal                                               | depth_max                                    |
 // | 1       | a                                                    | its coefficient, see below                   |
 // | 2       | b                                                    | depth_min                                    |
 // | 3       | c                                                    | 0                                            |
 //
-// Traits: mesh_root + 2 piece_root + 4 in_piece + 8 solid + 16 simple + 32 (least + 1) + 128 (most + 1). Coefficients:
-// from_light for silhouettes from the light's centre; else what points that see the face's front count it. All nodes
-// come first, in the order of the tree, then all edges, then all faces. What fields are: wedge_tree.hpp.
+// Traits: mesh_root + 2 piece_root + 4 in_piece + 8 solid + 16 simple + 32 (least + 1) + 128 (most + 1), and 512 for a
+// node that only points beyond it ask, 1024 for one that only others do: fixed_silhouettes.hpp. Coefficients:
+// from_light for silhouettes from the light's centre; else what points that see the face's front count it. Beside an
+// edge without a face something counts 0 times, −1 for a cap, or in sum what the edge of a fixed silhouette does. All
+// nodes come first, in the order of the tree, then its edges, those of fixed silhouettes, then all faces. What fields
+// are: wedge_tree.hpp.
 #pragma once
 
 #include <cstddef>
+#include <glm/glm.hpp>
 #include <penumbra/image.hpp>
+#include <penumbra/penumbra_wedge/fixed_silhouettes.hpp>
 #include <penumbra/penumbra_wedge/shadow.hpp>
 #include <string>
 #include <vector>
@@ -39,6 +44,7 @@ struct WedgeTexels {
     float scale = 1.0F;                 ///< from light space to that of the texels: a power of two
     float tolerance = 0.0F;             ///< how near a face's plane passes to points that are on it, times `scale`
     int nodes = 0;                      ///< how many texels nodes take
+    std::vector<glm::ivec2> meshes;     ///< the nodes of each mesh: their first texel, and that beyond their last
 };
 
 namespace detail {
@@ -49,28 +55,53 @@ class WedgeTexelWriter {
     static constexpr std::size_t node = 5, edge = 2, face = 4;
 
     explicit WedgeTexelWriter(const WedgeIndex<float>& index)
-        : tree_(index.tree()), from_light_(index.silhouette() == SilhouetteFrom::light_center) {}
+        : tree_(index.tree()),
+          from_light_(index.silhouette() == SilhouetteFrom::light_center),
+          all_(SilhouetteInserter<float>(index.tree(), from_light_).result()) {}
 
     std::size_t size() const { return faces_at() + tree_.faces.size() * face; }
-    std::size_t edges_at() const { return tree_.nodes.size() * node; }
-    std::size_t faces_at() const { return edges_at() + tree_.edges.size() * edge; }
+    std::size_t edges_at() const { return all_.nodes.size() * node; }
+    std::size_t fixed_at() const { return edges_at() + tree_.edges.size() * edge; }
+    std::size_t faces_at() const { return fixed_at() + all_.edges.size() * edge; }
 
     void write(glm::vec4* to) {
         at_ = to;
-        for (const WedgeNode<float>& n : tree_.nodes) write(n);
+        for (const Node& n : all_.nodes) write(n);
         for (const WedgeNode<float>& n : tree_.nodes)  // edges count their faces from the first of their leaf
             for (std::size_t e = 0; e < n.edge_count; ++e) write(tree_.edges[n.first_edge + e], n.first_face);
+        for (const FixedEdge<float>& e : all_.edges) write(e);
         for (const WedgeFace<float>& f : tree_.faces) write(f);
+    }
+    /// The nodes of each mesh, its silhouette included, as the first texel and that beyond the last.
+    std::vector<glm::ivec2> meshes() const {
+        std::vector<glm::ivec2> result;
+        for (std::size_t n = 0; n < all_.nodes.size();) {
+            if (!all_.nodes[n].node.mesh_root) {
+                ++n;
+                continue;
+            }
+            const bool two = all_.nodes[n].points == WedgePoints::beyond;
+            const std::size_t end = all_.nodes[two ? all_.nodes[n].node.skip : n].node.skip;
+            result.emplace_back(static_cast<int>(n * node), static_cast<int>(end * node));
+            n = end;
+        }
+        return result;
     }
 
   private:
+    using Node = TreeWithSilhouettes<float>::Node;
+
     void put(const Vec3<float>& xyz, float w) { *at_++ = glm::vec4(xyz, w); }
     static float number(std::size_t texel) { return static_cast<float>(texel); }
 
-    void write(const WedgeNode<float>& n) {
+    void write(const Node& with) {
+        const WedgeNode<float>& n = with.node;
         const int traits = int(n.mesh_root) + 2 * int(n.piece_root) + 4 * int(n.in_piece) + 8 * int(n.solid) +
-                           16 * int(n.simple) + 32 * (n.least + 1) + 128 * (n.most + 1);
-        const std::size_t first_edge = edges_at() + n.first_edge * edge, first_face = faces_at() + n.first_face * face;
+                           16 * int(n.simple) + 32 * (n.least + 1) + 128 * (n.most + 1) +
+                           512 * int(with.points == WedgePoints::beyond) +
+                           1024 * int(with.points == WedgePoints::not_beyond);
+        const std::size_t first_edge = (with.is_fixed ? fixed_at() : edges_at()) + n.first_edge * edge;
+        const std::size_t first_face = faces_at() + n.first_face * face;
         put(n.box.min, number(n.skip * node));
         put(n.box.max, static_cast<float>(traits));
         put(n.normal_min, n.offset_min);
@@ -85,6 +116,11 @@ class WedgeTexelWriter {
         put(e.a, beside(e.left));
         put(e.b, beside(e.right));
     }
+    void write(const FixedEdge<float>& e) {
+        const auto count = static_cast<float>(e.coefficient);
+        put(e.a, count < 0.0F ? count : 0.0F);
+        put(e.b, count > 0.0F ? -count : 0.0F);
+    }
     void write(const WedgeFace<float>& f) {
         put(f.normal, f.depth_max);
         put(f.a, from_light_ ? static_cast<float>(f.from_light) : f.solid ? 0.0F : 1.0F);
@@ -94,6 +130,7 @@ class WedgeTexelWriter {
 
     const WedgeTree<float>& tree_;
     bool from_light_;
+    TreeWithSilhouettes<float> all_;
     glm::vec4* at_ = nullptr;
 };
 
@@ -118,6 +155,7 @@ inline WedgeTexels wedge_texels(const PenumbraWedgeShadow<float>& shadow) {
     result.texels = Image<glm::vec4>(WedgeTexels::width, static_cast<int>((size + width - 1) / width));
     writer.write(result.texels.data());
     result.nodes = static_cast<int>(writer.edges_at());
+    result.meshes = writer.meshes();
     return result;
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <limits>
 #include <penumbra/soft_shadow_map/light_map.hpp>
+#include <penumbra/soft_shadow_map/light_map_maker.hpp>
 #include <utility>
 #include <vector>
 

@@ -6,6 +6,8 @@
 #include <penumbra/mesh.hpp>
 #include <penumbra/soft_shadow_map/light_interval.hpp>
 #include <penumbra/soft_shadow_map/light_map.hpp>
+#include <penumbra/soft_shadow_map/light_map_geometry.hpp>
+#include <penumbra/soft_shadow_map/light_map_maker.hpp>
 #include <penumbra/soft_shadow_map/options.hpp>
 #include <penumbra/soft_shadow_map/row_segments.hpp>
 #include <penumbra/soft_shadow_map/sample_placement.hpp>
@@ -34,15 +36,12 @@ class SoftShadowMap {
                   const std::vector<Mesh<T>>& receivers = {})
         : options_(options) {
         if (!validate(options) || !validate(light) || !validate(casters) || !validate(receivers)) return;
-        const Box3<T> box = bounds(casters);
-        if (is_empty(box)) return;
-        const Vec3<T> middle = light.a + (light.b * T(0.5) - light.a * T(0.5));
-        frame_ = light_frame(light, box.min * T(0.5) + box.max * T(0.5) - middle);
-        const T half_length = safe_length(light.b * T(0.5) - light.a * T(0.5));
-        const detail::LightMapMaker<T> maker(casters, receivers, frame_, half_length, options.resolution);
-        if (maker.view().empty()) return;
-        view_ = maker.view();
-        const T step = options.step > 0.0F ? static_cast<T>(options.step) : static_cast<T>(1e-3 * maker.farthest());
+        const detail::LightMapMaker<T> maker(light_map_geometry(casters, receivers, light, options.resolution));
+        const LightMapGeometry<T>& geometry = maker.geometry();
+        frame_ = geometry.frame;
+        if (geometry.view.empty()) return;
+        view_ = geometry.view;
+        const T half_length = geometry.half_length, step = geometry.step(options.step);
         if (is_exact())
             segments_ =
                 build(maker, half_length, step, [&](const Maps& maps) { return RowSegments<T>(view_, maps, step); });
@@ -109,8 +108,7 @@ class SoftShadowMap {
     }
     static std::vector<LightMap<T>> even_maps(const detail::LightMapMaker<T>& maker, T half_length, int count) {
         std::vector<LightMap<T>> maps;
-        for (int i = 0; i < count; ++i)
-            maps.push_back(maker.make(mix(-half_length, half_length, static_cast<T>(i) / static_cast<T>(count - 1))));
+        for (int i = 0; i < count; ++i) maps.push_back(maker.make(even_position(half_length, i, count)));
         return maps;
     }
 

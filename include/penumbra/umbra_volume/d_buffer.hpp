@@ -19,6 +19,8 @@
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
 #include <penumbra/umbra_volume/cut_share.hpp>
+#include <penumbra/umbra_volume/d_buffer_geometry.hpp>
+#include <penumbra/umbra_volume/d_buffer_view.hpp>
 #include <penumbra/umbra_volume/disk_visibility.hpp>
 #include <penumbra/umbra_volume/hiding_edges.hpp>
 #include <penumbra/umbra_volume/options.hpp>
@@ -32,25 +34,6 @@ struct Crossing {
     T depth = std::numeric_limits<T>::max();
     T silhouette_depth = T(0);  ///< of the edge, where the tangent plane's ray through the crossing meets it
     std::uint32_t edge = 0;     ///< DBuffer::edges
-};
-
-/// The texels of an image from the light's centre: direction (x / z, y / z) in light space to texels.
-template <class T>
-struct DBufferView {
-    Rect2<T> slopes;  ///< of the image's borders
-    int resolution;
-    DBufferDepth depth = DBufferDepth::light_plane;
-
-    /// A point's depth, as the image has depths.
-    T depth_of(const Vec3<T>& point_ls) const {
-        return depth == DBufferDepth::euclidean ? safe_length(point_ls) : point_ls.z;
-    }
-
-    Vec2<T> to_texel(const Vec3<T>& point_ls) const {
-        const Vec2<T> size = extent(slopes), slope(point_ls.x / point_ls.z, point_ls.y / point_ls.z);
-        return Vec2<T>((slope.x - slopes.min.x) / size.x, (slope.y - slopes.min.y) / size.y) *
-               static_cast<T>(resolution);
-    }
 };
 
 /// Two edges as a point sees them.
@@ -97,7 +80,7 @@ class DBufferBuilder;
 template <class T>
 class DBuffer {
   public:
-    static constexpr T widest = T(16);  ///< slope of the image's borders, at most
+    static constexpr T widest = DBufferGeometry<T>::widest;  ///< slope of the image's borders, at most
 
     DBuffer() = default;
     /// For valid casters and a valid light, in `frame`. Points outside of the image are lit: it holds all umbrae and

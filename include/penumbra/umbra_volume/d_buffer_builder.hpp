@@ -1,4 +1,5 @@
-// How D-buffers are drawn: casters, the sides of their volumes and silhouette faces, from the light's centre.
+// How D-buffers are drawn on the CPU: casters, the sides of their volumes and silhouette faces, from the light's
+// centre.
 //
 // All in light space and double; texels keep the type of the D-buffer.
 #pragma once
@@ -8,15 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <penumbra/detail/lit_casters.hpp>
 #include <penumbra/detail/nearest_surfaces.hpp>
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
 #include <penumbra/raster.hpp>
 #include <penumbra/umbra_volume/d_buffer.hpp>
+#include <penumbra/umbra_volume/d_buffer_geometry.hpp>
 #include <penumbra/umbra_volume/hiding_edges.hpp>
-#include <penumbra/umbra_volume/silhouette.hpp>
 #include <penumbra/umbra_volume/volume.hpp>
 #include <utility>
 #include <vector>
@@ -29,23 +29,23 @@ class DBufferBuilder {
   public:
     explicit DBufferBuilder(DBuffer<T>& buffer) : buffer_(buffer) {}
 
-    void build(const std::vector<Mesh<T>>& casters, const LightFrame<T>& frame, int resolution,
-               VolumeSilhouette silhouette) {
-        std::vector<Mesh<double>> meshes = in_light_space(casters, frame);
-        const double reach = reach_of(meshes);
-        near_ = 1e-6 * reach;
-        for (Mesh<double>& mesh : meshes) mesh = lit_part(mesh, near_);
-        const double radius = static_cast<double>(buffer_.radius_), widest = static_cast<double>(DBuffer<T>::widest);
-        const Rect2<double> slopes = slopes_around(meshes, Vec2<double>(radius, radius), widest, resolution);
-        buffer_.view_.slopes = {Vec2<T>(slopes.min), Vec2<T>(slopes.max)};
+    void build(DBufferGeometry<T> geometry, int resolution) {
+        buffer_.view_.slopes = geometry.slopes;
         buffer_.view_.resolution = resolution;
+        buffer_.edges_ = std::move(geometry.edges);
+        near_ = geometry.near, far_ = geometry.far;
         const std::size_t count = static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
         buffer_.casters_.assign(count, std::numeric_limits<T>::max());
         buffer_.umbra_.assign(count * buffer_.layer_count(), {});
         buffer_.penumbra_.assign(buffer_.umbra_.size(), {});
         std::vector<NearestSurfaces> surfaces(count);
         blocked_.assign(count, HidingEdge<T>::none);
-        for (std::uint32_t m = 0; m < meshes.size(); ++m) draw(meshes[m], m, silhouette, reach, surfaces);
+        for (std::uint32_t m = 0; m < geometry.casters.size(); ++m) {
+            const DBufferCaster& caster = geometry.casters[m];
+            draw_surfaces(caster.mesh, caster.solid, m, surfaces);
+            for (const DBufferFace& face : caster.faces) draw_face(caster.mesh, face);
+            for (const DBufferSide& side : caster.sides) draw_side(side.side, side.edge);
+        }
         for (int y = 0; y < resolution; ++y)
             for (int x = 0; x < resolution; ++x) {
                 const NearestSurfaces& at = surfaces[buffer_.texel(x, y)];
@@ -71,32 +71,6 @@ class DBufferBuilder {
         rasterize(seen(a), seen(b), seen(c), buffer_.view_.resolution, buffer_.view_.resolution, 0.5 * near_, fragment);
     }
 
-    void draw(const Mesh<double>& mesh, std::uint32_t number, VolumeSilhouette silhouette, double reach,
-              std::vector<NearestSurfaces>& surfaces) {
-        const EdgeAdjacency adjacency = edge_adjacency(mesh);
-        draw_surfaces(mesh, is_closed(adjacency), number, surfaces);
-        const double radius = static_cast<double>(buffer_.radius_), far = 1e4 * (reach + radius);
-        const DiskLight<double> disk{Vec3<double>(0.0, 0.0, 0.0), Vec3<double>(0.0, 0.0, 1.0), radius};
-        const DiskLight<double> seen_from{disk.center, disk.normal,
-                                          silhouette == VolumeSilhouette::disk ? radius : 0.0};
-        const VolumeSilhouettes silhouettes = volume_silhouettes(mesh, adjacency, seen_from, 1e-12 * reach);
-        HidingEdges<T> edges(mesh, adjacency, silhouettes, number, buffer_.edges_);
-        draw_faces(mesh, silhouettes.faces, edges);
-        for (const VolumeKind kind : {VolumeKind::umbra, VolumeKind::penumbra})
-            for (const std::vector<VolumeSide<double>>& loop :
-                 volume_sides(mesh.positions, silhouettes, radius, kind, fan_step)) {
-                edges.connect(loop);
-                for (std::size_t i = 0; i < loop.size(); ++i)
-                    if (loop[i].ridge && !loop[i].crossed) draw_side(loop[i], edges.of_side(loop, i), far);
-            }
-        for (const VolumeEdge& edge : silhouettes.looming) {
-            const Vec3<double>&a = mesh.positions[edge.from], &b = mesh.positions[edge.to];
-            const Vec3<double> rim = extrusion_points(a, b, disk).penumbra;
-            draw_side({a, b, rim, rim, edge.from, edge.to, true, false, VolumeKind::penumbra},
-                      edges.of(edge.from, edge.to), far);
-        }
-    }
-
     void draw_surfaces(const Mesh<double>& mesh, bool solid, std::uint32_t number,
                        std::vector<NearestSurfaces>& surfaces) {
         const Vec2<double> texel_size =
@@ -112,27 +86,21 @@ class DBufferBuilder {
         }
     }
 
-    /// Silhouette faces: a ray that leaves a solid through one leaves the umbra there.
-    void draw_faces(const Mesh<double>& mesh, const std::vector<VolumeFace>& faces, const HidingEdges<T>& edges) {
-        for (const VolumeFace& face : faces) {
-            const glm::uvec3& t = mesh.triangles[face.face];
-            const Vec3<double>&a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-            const double toward = -glm::dot(glm::cross(b - a, c - a), a) * (face.turned ? -1.0 : 1.0);
-            const std::uint32_t number = edges.of_face(face.face);
-            if (toward > 0.0 || number == HidingEdges<T>::none) continue;
-            const HidingEdge<T>& edge = buffer_.edges_[number];
-            const auto edge_depth = static_cast<double>(std::min(edge.a.z, edge.b.z));
-            draw_triangle(a, b, c, [&](int x, int y, double depth) {
-                insert(buffer_.umbra_, x, y, depth, std::min(depth, edge_depth), number);
-            });
-        }
+    void draw_face(const Mesh<double>& mesh, const DBufferFace& face) {
+        const glm::uvec3& t = mesh.triangles[face.face];
+        const HidingEdge<T>& edge = buffer_.edges_[face.edge];
+        const auto edge_depth = static_cast<double>(std::min(edge.a.z, edge.b.z));
+        draw_triangle(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z], [&](int x, int y, double depth) {
+            insert(buffer_.umbra_, x, y, depth, std::min(depth, edge_depth), face.edge);
+        });
     }
 
     /// From depths to those of the image, along a texel's ray.
     double unit(int x, int y) const {
         return buffer_.view_.depth == DBufferDepth::euclidean ? glm::length(at(x, y, 1.0)) : 1.0;
     }
-    /// Umbrae only along rays that their own caster blocks: behind its apex an umbra's sides bound nothing.
+    /// Keeps the nearest crossings of different edges, whatever the order of drawing. Umbrae only along rays that their
+    /// own caster blocks: behind its apex an umbra's sides bound nothing.
     void insert(std::vector<Crossing<T>>& layers, int x, int y, double depth, double silhouette_depth,
                 std::uint32_t edge) {
         if (&layers == &buffer_.umbra_ && blocked_[buffer_.texel(x, y)] != buffer_.edges_[edge].mesh) return;
@@ -140,12 +108,13 @@ class DBufferBuilder {
         Crossing<T> crossing{static_cast<T>(depth * to_image), static_cast<T>(silhouette_depth * to_image), edge};
         Crossing<T>* const kept = layers.data() + buffer_.texel(x, y) * buffer_.layer_count();
         for (std::size_t k = 0; k < buffer_.layer_count(); ++k) {
-            if (kept[k].edge == crossing.edge && kept[k].depth <= crossing.depth) return;  // once is enough
+            const bool again = kept[k].edge == crossing.edge;
             if (crossing.depth < kept[k].depth) std::swap(crossing, kept[k]);
+            if (again) return;
         }
     }
 
-    void draw_side(const VolumeSide<double>& side, std::uint32_t number, double far) {
+    void draw_side(const VolumeSide<double>& side, std::uint32_t number) {
         std::vector<Crossing<T>>& layers = side.kind == VolumeKind::umbra ? buffer_.umbra_ : buffer_.penumbra_;
         const auto fragment = [&](int x, int y, double depth) {
             double silhouette_depth = side.a.z;
@@ -158,14 +127,13 @@ class DBufferBuilder {
             }
             insert(layers, x, y, depth, silhouette_depth, number);
         };
-        const Vec3<double> far_a = side.far_a(far), far_b = side.far_b(far);
+        const Vec3<double> far_a = side.far_a(far_), far_b = side.far_b(far_);
         if (!side.is_fan()) draw_triangle(side.b, side.a, far_a, fragment);
         draw_triangle(side.b, far_a, far_b, fragment);
     }
 
-    static constexpr double fan_step = 0.05;  // radians: an arc's triangle is off by 0.0003 r
     DBuffer<T>& buffer_;
-    double near_ = 0.0;
+    double near_ = 0.0, far_ = 0.0;
     std::vector<std::uint32_t> blocked_;  // the last mesh that was drawn at a texel
 };
 
@@ -178,7 +146,8 @@ DBuffer<T>::DBuffer(const std::vector<Mesh<T>>& casters, const LightFrame<T>& fr
                     int layers, VolumeSilhouette silhouette, DBufferDepth depth)
     : radius_(radius), layers_(layers) {
     view_.depth = depth;
-    detail::DBufferBuilder<T>(*this).build(casters, frame, resolution, silhouette);
+    detail::DBufferBuilder<T>(*this).build(d_buffer_geometry(casters, frame, radius, resolution, silhouette),
+                                           resolution);
 }
 
 }  // namespace penumbra

@@ -1,8 +1,8 @@
-// A level of an N-Buffer from the one before: four lookups, 2^level texels apart; zeros outside. Rounds as the C++ does.
+// A level of an N-Buffer from the one before: four lookups, 2^level texels apart; zeros outside. Rounds as C++ does.
 //
 // A whole shader for GLSL 330 and ES 300: prepend the version, and `precision highp float; precision highp
-// sampler2DArray;` for ES. Draw full_screen.vert on layer `penumbra_layer` + layers of a level; the level before must be
-// in another texture or layer that is not written. RGBA8, no blending.
+// sampler2DArray;` for ES. Draw full_screen.vert on layer `penumbra_layer` + layers of a level; the level before must
+// be in another texture or layer that is not written. RGBA8, no blending.
 // C++: build_n_buffer_level in include/penumbra/occlusion_texture/n_buffer.hpp
 uniform sampler2DArray penumbra_levels;
 uniform int penumbra_layer;  // of the level before

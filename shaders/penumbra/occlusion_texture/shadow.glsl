@@ -3,7 +3,8 @@
 //
 // Options: PENUMBRA_OCCLUSION_TEXTURE_FILTER       PENUMBRA_FILTER_SUMMED_AREA (default), _N_BUFFER or _MIPMAP
 //          PENUMBRA_OCCLUSION_TEXTURE_COMBINATION  PENUMBRA_COMBINATION_MAX (default), _PRODUCT, _SUM or _MEAN
-//          PENUMBRA_OCCLUSION_TEXTURE_CHANNELS     slices to a layer of the textures: 4 (default) or 1
+//          PENUMBRA_OCCLUSION_TEXTURE_CHANNELS     slices to a layer of the textures: 4 (default) or 1, which suits
+//                                                  tables: R32UI, a quarter of the bandwidth
 //          PENUMBRA_OCCLUSION_TEXTURE_CELLS        the light is split in n x n cells; 2
 //          PENUMBRA_OCCLUSION_TEXTURE_PLANE        PENUMBRA_SLICE_PLANE_MIDDLE (default) or _BOTTOM
 //          PENUMBRA_OCCLUSION_TEXTURE_SELF_SHADOW  PENUMBRA_SELF_SHADOW_MEAN_DEPTH (default), _CLEAR or _FADE
@@ -77,21 +78,40 @@ float penumbra_slice_mean(highp PENUMBRA_SLICE_SAMPLER slices, penumbra_Occlusio
     return mean[channel];
 }
 
-// What a slice blocks of a cell of the light, in [0, 1].
-float penumbra_slice_occlusion(highp PENUMBRA_SLICE_SAMPLER masks, highp PENUMBRA_SLICE_SAMPLER depths,
-                               penumbra_OcclusionTexture info, int slice, ivec2 cell, vec3 point_ls) {
+// The kernel of a point on a slice, texels; no cell of it is thinner than the filters' least.
+penumbra_Rect2 penumbra_slice_kernel(penumbra_OcclusionTexture info, int slice, vec3 point_ls) {
     float top = penumbra_top(info.range, slice);
-    float relative = penumbra_relative_depth(top, info.range.thickness, point_ls.z);
-    if (!(relative > 0.0f)) return 0.0f;
     float plane = penumbra_slice_plane_depth(top, info.range.thickness, point_ls.z, PENUMBRA_OCCLUSION_TEXTURE_PLANE);
     penumbra_Rect2 light = penumbra_rect2(info.half_size * -1.0f, info.half_size);
     penumbra_Rect2 kernel = penumbra_footprint(info.camera, plane, point_ls, light);
-    // cells of the kernel, none thinner than the filters' least
     float cells = float(PENUMBRA_OCCLUSION_TEXTURE_CELLS);
     vec2 x = penumbra_widen(vec2(kernel.min.x, kernel.max.x), PENUMBRA_SMALLEST_BOX * cells);
     vec2 y = penumbra_widen(vec2(kernel.min.y, kernel.max.y), PENUMBRA_SMALLEST_BOX * cells);
-    vec2 corner = vec2(x.x, y.x);
-    vec2 step = vec2(x.y - x.x, y.y - y.x) / cells;
+    return penumbra_rect2(vec2(x.x, y.x), vec2(x.y, y.y));
+}
+
+// False if no cell of the kernel reads anything: most slices of most points, known from one sum.
+bool penumbra_slice_may_block(highp PENUMBRA_SLICE_SAMPLER masks, penumbra_OcclusionTexture info, int slice,
+                              penumbra_Rect2 kernel_tx) {
+#if PENUMBRA_OCCLUSION_TEXTURE_FILTER == PENUMBRA_FILTER_SUMMED_AREA
+    int layer = slice / PENUMBRA_OCCLUSION_TEXTURE_CHANNELS;
+    int channel = slice - layer * PENUMBRA_OCCLUSION_TEXTURE_CHANNELS;
+    // a texel more on each side than whole ones: cells are rounded
+    ivec2 low = ivec2(clamp(kernel_tx.min, -65536.0f, 65536.0f)) - 2;
+    ivec2 high = ivec2(clamp(kernel_tx.max, -65536.0f, 65536.0f)) + 2;
+    return penumbra_summed_area_sum(masks, layer, low, high)[channel] != 0u;
+#else
+    return true;
+#endif
+}
+
+// What a slice blocks of a cell of the light, in [0, 1].
+float penumbra_slice_occlusion(highp PENUMBRA_SLICE_SAMPLER masks, highp PENUMBRA_SLICE_SAMPLER depths,
+                               penumbra_OcclusionTexture info, int slice, ivec2 cell, penumbra_Rect2 kernel_tx,
+                               vec3 point_ls) {
+    float relative = penumbra_relative_depth(penumbra_top(info.range, slice), info.range.thickness, point_ls.z);
+    vec2 corner = kernel_tx.min;
+    vec2 step = (kernel_tx.max - kernel_tx.min) / float(PENUMBRA_OCCLUSION_TEXTURE_CELLS);
     penumbra_Rect2 box = penumbra_rect2(corner + step * vec2(cell), corner + step * vec2(cell + 1));
 
     float mask = penumbra_slice_mean(masks, info, slice, box);
@@ -110,18 +130,23 @@ float penumbra_slice_occlusion(highp PENUMBRA_SLICE_SAMPLER masks, highp PENUMBR
 float penumbra_visibility(highp PENUMBRA_SLICE_SAMPLER masks, highp PENUMBRA_SLICE_SAMPLER depths,
                           penumbra_OcclusionTexture info, vec3 point_ls) {
     if (!(point_ls.z > 0.0f)) return 1.0f;
-    float occluded = 0.0f;
-    for (int row = 0; row < PENUMBRA_OCCLUSION_TEXTURE_CELLS; ++row) {
-        for (int column = 0; column < PENUMBRA_OCCLUSION_TEXTURE_CELLS; ++column) {
-            penumbra_OcclusionAccumulator all = penumbra_no_occlusion();
-            for (int slice = 0; slice < info.range.count; ++slice)
-                all = penumbra_add(all,
-                                   penumbra_slice_occlusion(masks, depths, info, slice, ivec2(column, row), point_ls));
-            occluded += penumbra_result(all, PENUMBRA_OCCLUSION_TEXTURE_COMBINATION);
+    const int side = PENUMBRA_OCCLUSION_TEXTURE_CELLS, cells = side * side;
+    penumbra_OcclusionAccumulator all[cells];
+    for (int cell = 0; cell < cells; ++cell) all[cell] = penumbra_no_occlusion();
+    for (int slice = 0; slice < info.range.count; ++slice) {
+        if (!(point_ls.z > penumbra_top(info.range, slice))) continue;
+        penumbra_Rect2 kernel = penumbra_slice_kernel(info, slice, point_ls);
+        if (!penumbra_slice_may_block(masks, info, slice, kernel)) continue;
+        for (int cell = 0; cell < cells; ++cell) {
+            ivec2 at = ivec2(cell % side, cell / side);
+            all[cell] = penumbra_add(all[cell],
+                                     penumbra_slice_occlusion(masks, depths, info, slice, at, kernel, point_ls));
         }
     }
-    float cells = float(PENUMBRA_OCCLUSION_TEXTURE_CELLS * PENUMBRA_OCCLUSION_TEXTURE_CELLS);
-    return penumbra_saturate((cells - occluded) / cells);
+    float occluded = 0.0f;
+    for (int cell = 0; cell < cells; ++cell)
+        occluded += penumbra_result(all[cell], PENUMBRA_OCCLUSION_TEXTURE_COMBINATION);
+    return penumbra_saturate((float(cells) - occluded) / float(cells));
 }
 
 #endif

@@ -47,7 +47,9 @@ float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info,
     penumbra_WindingColumn columns[PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE];
     // all pieces
     float areas[PENUMBRA_WEDGE_KEPT];
-    penumbra_Rect2 rects[PENUMBRA_WEDGE_KEPT];
+    vec4 rects[PENUMBRA_WEDGE_KEPT];  // min and max
+    areas[0] = 0.0f;  // drivers warn of what is never read before it is set
+    rects[0] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     int kept = 0;
     float total = 0.0f, largest = 0.0f, overlap = 0.0f, lower = 0.0f, upper = 0.0f;
     bool folds = false, is_second = false;
@@ -104,14 +106,15 @@ float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info,
             if (area > 0.0f) {
                 rect = penumbra_include_hidden_edges(p, penumbra_box3(vec3(low), vec3(high)), rect);
                 for (int k = 0; k < kept; ++k) {
-                    float in_both = penumbra_area(penumbra_intersect(rect, rects[k])) * unit;
+                    penumbra_Rect2 other = penumbra_rect2(vec2(rects[k].x, rects[k].y), vec2(rects[k].z, rects[k].w));
+                    float in_both = penumbra_area(penumbra_intersect(rect, other)) * unit;
                     overlap += min(in_both, min(area, areas[k]));
                 }
                 total += area;
                 largest = max(largest, area);
                 if (kept < PENUMBRA_WEDGE_KEPT) {
                     areas[kept] = area;
-                    rects[kept] = rect;
+                    rects[kept] = vec4(rect.min, rect.max);
                     ++kept;
                 } else {
                     overlap += area;  // nobody will know where this one is

@@ -39,7 +39,7 @@ bool penumbra_touches(penumbra_WedgePoint p, penumbra_Box3 box, float tolerance)
 bool penumbra_has_no_silhouette(highp sampler2D wedges, penumbra_WedgePoint p, int node, int traits,
                                 penumbra_Box3 box, float tolerance) {
     int least = ((traits >> 5) & 3) - 1;
-    int most = (traits >> 7) - 1;
+    int most = ((traits >> 7) & 3) - 1;
 #if PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE == PENUMBRA_SILHOUETTE_LIGHT_CENTER
     if (least != most || penumbra_touches(p, box, tolerance)) return false;
 #else
@@ -189,6 +189,10 @@ penumbra_WedgeCursor penumbra_next_node(highp sampler2D wedges, penumbra_WedgePo
     bool is_part = in_piece && (traits & PENUMBRA_WEDGE_PIECE) == 0;
     c.node = int(low.w);
     if (penumbra_misses(p, box, is_part)) return c;
+#if PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE == PENUMBRA_SILHOUETTE_LIGHT_CENTER
+    int not_for = p.point.z > high.z + tolerance * 2.0f ? PENUMBRA_WEDGE_NOT_BEYOND : PENUMBRA_WEDGE_BEYOND;
+    if ((traits & not_for) != 0) return c;
+#endif
     if (in_piece && penumbra_has_no_silhouette(wedges, p, node, traits, box, tolerance)) return c;
     if ((traits & groups) != 0) {
         c.group = node;

@@ -20,6 +20,8 @@ struct penumbra_WedgeShadow {
 #define PENUMBRA_WEDGE_IN_PIECE 4
 #define PENUMBRA_WEDGE_SOLID 8
 #define PENUMBRA_WEDGE_SIMPLE 16
+#define PENUMBRA_WEDGE_BEYOND 512       // only points beyond its box ask,
+#define PENUMBRA_WEDGE_NOT_BEYOND 1024  // or only the others
 
 // `wedges`: 32-bit floats; nothing is filtered.
 vec4 penumbra_wedge_texel(highp sampler2D wedges, int texel) {

@@ -1,20 +1,21 @@
 // D-buffer of a disk light: how much of it a point sees, by the D-buffer and its edges as textures.
 //
-// The host makes both by d_buffer_texels(); or a renderer draws them: a texel (x, y) of layer l is texel
-// (x, y + l resolution) for umbrae, further down by layers * resolution for penumbrae, and has in
+// The host makes both by d_buffer_texels(); or a renderer draws the crossings (volumes.frag says how), and the host
+// makes the edges by hiding_edge_texels(). Crossings are as wide as the image and higher by 2 layers: texel (x, y) of
+// layer l is texel (x, y + 2 l resolution) for umbrae, resolution further down for penumbrae, and has in
 //     .r  the depth of the crossing; above 3e38 where there is none
 //     .g  the depth of the edge where the tangent plane's ray through the crossing meets it
 //     .b  the edge's number
-//     .a  the depth beyond which a ray is blocked
-// An edge e is in texels 4 e to 4 e + 2 of `edges`, 1024 a row: a and the caster's number; b and the number of the edge
-// that is chained to it; of a corner whose first edge this is, the number of the second, then those of its neighbours
-// around outer corners, before and after; -1 where there is none. Points come in light space, as penumbra_to_light gives
-// them.
+//     .a  of umbrae in layer 0 the depth beyond which a ray is blocked, above 3e38 where it is not
+// An edge e is in texels 4 e to 4 e + 2 of `edges`, 1024 a row: a and the caster's number; b and the number of the
+// edge that is chained to it; of a corner whose first edge this is, the number of the second, then those of its
+// neighbours around outer corners, before and after; -1 where there is none. Points come in light space, as
+// penumbra_to_light gives them.
 //
 // Options: PENUMBRA_UMBRA_VOLUME_LAYERS      edges on each side of a caster, 1 or 2
 //          PENUMBRA_UMBRA_VOLUME_VISIBILITY  V(t): one of PENUMBRA_CUT_VISIBILITY_...
 //          PENUMBRA_UMBRA_VOLUME_SHARE       where t comes from: one of PENUMBRA_CUT_SHARE_...
-//          PENUMBRA_UMBRA_VOLUME_DEPTH       what depths are: one of PENUMBRA_D_BUFFER_DEPTH_...
+//          and d_buffer_view.glsl's
 // Error:   that of the method; from the C++ 1e-6, 2e-6 by the square root, where depths are distances from the centre
 //          and t comes from them a rounding of these over the depth behind the edge
 // Source:  the umbra and penumbra volume paper for circular lights; second layer, edges and rules for two cuts are ours
@@ -24,6 +25,7 @@
 
 #include "../geometry.glsl"
 #include "cut_share.glsl"
+#include "d_buffer_view.glsl"
 #include "disk_visibility.glsl"
 
 #define PENUMBRA_CUT_VISIBILITY_EXACT 0
@@ -32,10 +34,6 @@
 
 #define PENUMBRA_CUT_SHARE_EDGE 0
 #define PENUMBRA_CUT_SHARE_DEPTHS 1
-
-// From the light's plane, or from its centre.
-#define PENUMBRA_D_BUFFER_DEPTH_LIGHT_PLANE 0
-#define PENUMBRA_D_BUFFER_DEPTH_EUCLIDEAN 1
 
 #ifndef PENUMBRA_UMBRA_VOLUME_LAYERS
 #define PENUMBRA_UMBRA_VOLUME_LAYERS 2
@@ -46,19 +44,10 @@
 #ifndef PENUMBRA_UMBRA_VOLUME_SHARE
 #define PENUMBRA_UMBRA_VOLUME_SHARE PENUMBRA_CUT_SHARE_EDGE
 #endif
-#ifndef PENUMBRA_UMBRA_VOLUME_DEPTH
-#define PENUMBRA_UMBRA_VOLUME_DEPTH PENUMBRA_D_BUFFER_DEPTH_LIGHT_PLANE
-#endif
 
-// The texels of an image from the light's centre: `slopes` x / z and y / z of its borders.
-struct penumbra_DBufferView {
-    penumbra_Rect2 slopes;
-    int resolution;
-};
-
-// A straight edge that hides part of the light, its caster on the left as seen from the light. Light space. `chained` is
-// the number of the edge beyond the silhouette faces at this one, or -1; `corner`, of a corner whose first edge this is,
-// that of its second; `before` and `after` those of its neighbours around outer corners.
+// A straight edge that hides part of the light, its caster on the left as seen from the light. Light space. `chained`
+// is the number of the edge beyond the silhouette faces at this one, or -1; `corner`, of a corner whose first edge
+// this is, that of its second; `before` and `after` those of its neighbours around outer corners.
 struct penumbra_HidingEdge {
     vec3 a, b;
     int mesh, chained, corner, before, after;
@@ -69,23 +58,6 @@ struct penumbra_TwoCuts {
     float angle;
     bool convex;
 };
-
-// A point's depth, as the image has depths.
-float penumbra_depth_of(vec3 point_ls) {
-#if PENUMBRA_UMBRA_VOLUME_DEPTH == PENUMBRA_D_BUFFER_DEPTH_EUCLIDEAN
-    return penumbra_safe_length(point_ls);
-#else
-    return point_ls.z;
-#endif
-}
-
-// The texel that a point in light space, at depth > 0, lies in.
-vec2 penumbra_to_texel(penumbra_DBufferView view, vec3 point_ls) {
-    vec2 size = penumbra_extent(view.slopes);
-    vec2 slope = vec2(point_ls.x / point_ls.z, point_ls.y / point_ls.z);
-    return vec2((slope.x - view.slopes.min.x) / size.x, (slope.y - view.slopes.min.y) / size.y) *
-           float(view.resolution);
-}
 
 // How two edges lie to each other from `point`, all in light space. Edges of different casters never hide as one.
 penumbra_TwoCuts penumbra_two_cuts(penumbra_HidingEdge first, penumbra_HidingEdge second, vec3 point) {
@@ -193,7 +165,7 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
     vec4 first = texelFetch(crossings, texel, 0);
     float depth = penumbra_depth_of(point);
     bool behind = depth > first.w;
-    if (!behind) texel.y += PENUMBRA_UMBRA_VOLUME_LAYERS * view.resolution;
+    if (!behind) texel.y += view.resolution;
     if (!behind) first = texelFetch(crossings, texel, 0);
     // what an edge leaves that was not crossed yet: nothing of the light, or all
     float uncrossed = behind ? 0.0f : 1.0f;
@@ -214,7 +186,7 @@ float penumbra_visibility(highp sampler2D crossings, highp sampler2D edges, penu
 #if PENUMBRA_UMBRA_VOLUME_LAYERS < 2
     return v1;
 #else
-    vec4 second = texelFetch(crossings, ivec2(texel.x, texel.y + view.resolution), 0);
+    vec4 second = texelFetch(crossings, ivec2(texel.x, texel.y + 2 * view.resolution), 0);
     if (!(second.x < 3.0e38f) || !(second.y < depth)) return v1;
     penumbra_HidingEdge edge2 = penumbra_hiding_edge(edges, int(second.z));
     bool crossed = second.x < depth;

@@ -67,6 +67,14 @@ inline void segment_point_and_slack(float* in) {
     if (least < slopes || std::min(std::abs(depth), std::abs(depth - in[6])) < condition) in[2] = in[0];
 }
 
+/// Half a length, and which of how many maps.
+inline void half_length_and_map(float* in) {
+    in[0] = std::abs(moderate(in[0]));
+    in[2] = whole(in[2], 2, 64);
+    in[1] = std::min(whole(in[1], 0, 63), in[2] - 1.0F);
+}
+inline float half_length(const float* in) { return in[0]; }
+
 // What texts begin with.
 #define LIGHT_MAP_VIEW          \
     penumbra_LightMapView view; \
@@ -93,6 +101,14 @@ inline void add_soft_shadow_map_rows(std::vector<Function>& list) {
                 o[0] = light_map_view(i).column_slope(i[5]), o[1] = light_map_view(i).row_slope(i[6]);
             },
             view_and_texels, 8, slope_of_texels
+    });
+    list.push_back({
+        "even_position", "soft_shadow_map/light_map", 3, 1,
+            GLSL(O(0) = penumbra_even_position(I(0), int(I(1)), int(I(2)));),
+            [](const float* i, float* o) {
+                o[0] = even_position(i[0], static_cast<int>(i[1]), static_cast<int>(i[2]));
+            },
+            half_length_and_map, 4, half_length
     });
     list.push_back({
         "may_hide", "soft_shadow_map/row_segments", 8, 1,

@@ -178,7 +178,7 @@ inline void add_umbra_volume_d_buffer(std::vector<Function>& list) {
             two_edges_and_point, 8, one_share
     });
     list.push_back({
-        "DBufferView: to_texel, depth_of", "umbra_volume/d_buffer", 8, 3,
+        "DBufferView: to_texel, depth_of", "umbra_volume/d_buffer_view", 8, 3,
             GLSL(penumbra_DBufferView view; view.slopes = RECT(0); view.resolution = int(I(4));
                  vec2 at = penumbra_to_texel(view, V3(5)); PUT2(0, at); O(2) = penumbra_depth_of(V3(5));),
             [](const float* i, float* o) {
