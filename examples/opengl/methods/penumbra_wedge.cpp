@@ -77,12 +77,6 @@ std::string option(const char* name, Choice value) {
     return std::string("PENUMBRA_PENUMBRA_WEDGE_") + name + " " + std::to_string(static_cast<int>(value));
 }
 
-void tell(const Program& program, const std::string& name, const LightFrame<float>& light) {
-    program.set((name + ".origin").c_str(), light.origin);
-    program.set((name + ".u").c_str(), light.u);
-    program.set((name + ".v").c_str(), light.v);
-    program.set((name + ".normal").c_str(), light.normal);
-}
 void tell(const Program& program, const std::string& name, const WedgeTexels& index) {
     program.set((name + ".half_size").c_str(), index.half_size);
     program.set((name + ".scale").c_str(), index.scale);
@@ -236,13 +230,13 @@ void PenumbraWedge::place_silhouettes(const Box3<float>& receivers_ws) {
         int batch;
     };
     std::vector<Silhouette> all;
+    const bool in_order = has_rectangles();
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
         const ShadowFrustum<float> frustum = shadow_frustum(boxes_[i], index_.half_size, receivers);
         if (is_empty(frustum)) continue;
         int batch = 0;
-        for (const Silhouette& before : all)
-            if (has_rectangles() && before.batch >= batch && may_meet(before.frustum, frustum))
-                batch = before.batch + 1;
+        for (std::size_t k = 0; in_order && k < all.size(); ++k)
+            if (all[k].batch >= batch && may_meet(all[k].frustum, frustum)) batch = all[k].batch + 1;
         all.push_back({frustum, index_.meshes[i], batch});
     }
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.batch < b.batch; });
@@ -297,7 +291,7 @@ void PenumbraWedge::tell_volumes(const Program& program, const Frame& frame) con
     program.set("penumbra_silhouettes", 0, silhouettes_);
     program.set("penumbra_scale", index_.scale);
     program.set("penumbra_world_to_clip", frame.world_to_clip);
-    tell(program, "penumbra_light", light_);
+    program.set("penumbra_light", light_);
     program.set("penumbra_positions", 1, frame.positions);
     program.set("penumbra_wedges", 2, wedges_);
     tell(program, "penumbra_shadow", index_);
@@ -346,7 +340,7 @@ void PenumbraWedge::shade(const Frame& frame) const {
     shade_.set("positions", 0, frame.positions);
     if (is_index()) {
         shade_.set("wedges", 1, wedges_);
-        tell(shade_, "light", light_);
+        shade_.set("light", light_);
         tell(shade_, "shadow", index_);
     } else if (has_rectangles()) {
         shade_.set("rects", 1, rects_);

@@ -143,7 +143,8 @@ inline bool require_addressable(std::size_t texels) {
 }  // namespace detail
 
 /// The texels of a shadow's index. PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE must be what the shadow's `silhouette` is; other
-/// options are the shader's own. Reports an index of more than 2^24 texels; a triangle takes about 10.
+/// options are the shader's own. Reports an index of more than 2^24 texels; a triangle takes about 10,
+/// or up to 20 with silhouettes from the light's centre.
 inline WedgeTexels wedge_texels(const PenumbraWedgeShadow<float>& shadow) {
     WedgeTexels result;
     result.half_size = shadow.scaled_half_size();

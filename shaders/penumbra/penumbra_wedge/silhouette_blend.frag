@@ -106,7 +106,10 @@ penumbra_Sums penumbra_sum(penumbra_WedgePoint p, bool mirrored) {
             } else {
                 seen = penumbra_project_edge(from, to, p.point, p.light);
             }
-            if (seen.lands) sums = penumbra_add(sums, p, seen.a, seen.b, (a.w - b.w) * mirror.y);
+            // beside the light, or below it, an edge adds nothing
+            bool matters = seen.lands && max(seen.a.y, seen.b.y) > p.light.min.y &&
+                           max(seen.a.x, seen.b.x) > p.light.min.x && min(seen.a.x, seen.b.x) < p.light.max.x;
+            if (matters) sums = penumbra_add(sums, p, seen.a, seen.b, (a.w - b.w) * mirror.y);
             edge += 2;
         } else {
             vec4 low = penumbra_wedge_texel(penumbra_wedges, node);
