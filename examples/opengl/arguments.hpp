@@ -15,6 +15,7 @@ struct Arguments {
     std::vector<std::string> knobs;
     float light_size = 1.0F;
     glm::ivec2 size{960, 720};
+    bool size_given = false;
     bool ordinary_depth = false;
     Picture picture = Picture::shaded;
     float split = 1.0F;

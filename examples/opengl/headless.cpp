@@ -8,30 +8,11 @@
 #include <stdexcept>
 
 #include "../pictures/picture.hpp"
+#include "measures.hpp"
 #include "viewer.hpp"
 
 namespace penumbra::opengl {
 namespace {
-
-void require_no(const std::vector<std::string>& complaints) {
-    if (!complaints.empty()) throw std::runtime_error("the driver complains: " + complaints.front());
-}
-
-float median(std::deque<float> values) {
-    if (values.empty()) return 0.0F;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-double rmse(const std::vector<float>& visible, const std::vector<float>& truth) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < visible.size(); ++i) {
-        const double error = static_cast<double>(visible[i]) - static_cast<double>(truth[i]);
-        sum += error * error;
-    }
-    return std::sqrt(sum / std::max<double>(static_cast<double>(visible.size()), 1.0));
-}
 
 Image<float> image_of(const Viewer& viewer, const Viewer::Asked& asked, const std::vector<float>& visible) {
     const glm::ivec2 size = viewer.renderer().size();
@@ -117,48 +98,7 @@ void run_headless(const Arguments& arguments) {
             pictures::write_png(arguments.out, viewer.screenshot());
         }
     }
-    require_no(complaints);
-}
-
-void run_timings(const std::string& file, const std::string& gl) {
-    const HeadlessContext context(gl);
-    const std::vector<std::string>& complaints = collect_complaints();
-    const Capabilities can = capabilities(gl);
-    std::ofstream csv(file);
-    csv << "driver,scene,light,method,width,height,pass,ms,rmse\n";
-    fmt::print("{}\n", driver_name());
-    for (const char* name : {"spheres", "bunny", "foliage"})
-        for (const std::string& kind : scenes::light_kinds()) {
-            const scenes::Scene scene = scenes::under(scenes::make_scene(name), kind, 1.0F);
-            for (const std::string& method : methods_for(scene.light, can)) {
-                Viewer viewer(scene, method, can, true);
-                viewer.resize({320, 240});
-                viewer.show.light = false;
-                viewer.draw_frame();
-                const Viewer::Asked asked = viewer.asked();
-                const double error = rmse(asked.visible, viewer.by_rays(1024));
-                for (const glm::ivec2 size : {glm::ivec2(1920, 1080), glm::ivec2(3840, 2160)}) {
-                    viewer.resize(size);
-                    viewer.timers().clear();
-                    for (int frame = 0; frame < 33; ++frame) viewer.draw_frame();
-                    viewer.timers().next_frame(true);
-                    float sum = 0.0F;
-                    std::string passes;
-                    for (const Timers::Pass& pass : viewer.timers().passes()) {
-                        const float milliseconds = median(pass.milliseconds);
-                        csv << fmt::format("\"{}\",{},{},{},{},{},{},{:.4f},{:.5f}\n", driver_name(), name, kind,
-                                           method, size.x, size.y, pass.name, milliseconds, error);
-                        if (pass.name == "surfaces") continue;
-                        sum += milliseconds;
-                        passes += fmt::format("{}{} {:.3f}", passes.empty() ? "" : ", ", pass.name, milliseconds);
-                    }
-                    fmt::print("{:8} {:9} {:18} {:4} x {:4}  {:8.3f} ms  RMSE {:.4f}  {}\n", name, kind, method, size.x,
-                               size.y, sum, error, passes);
-                }
-            }
-        }
-    if (!csv) throw std::runtime_error("cannot write " + file);
-    require_no(complaints);
+    require_none(complaints);
 }
 
 }  // namespace penumbra::opengl

@@ -6,6 +6,7 @@
 
 #include "arguments.hpp"
 #include "headless.hpp"
+#include "timings.hpp"
 #include "truth.hpp"
 #include "window/window.hpp"
 
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
                if (std::sscanf(text.c_str(), "%dx%d", &arguments.size.x, &arguments.size.y) != 2 ||
                    arguments.size.x < 1 || arguments.size.y < 1 || arguments.size.x > 16384 || arguments.size.y > 16384)
                    throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT, 1x1 to 16384x16384");
+               arguments.size_given = true;
            },
            "WIDTHxHEIGHT")
         ->default_str("960x720");
@@ -60,7 +62,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     try {
         if (!timings.empty())
-            run_timings(timings, arguments.gl);
+            run_timings(timings, arguments);
         else if (headless || arguments.compare)
             run_headless(arguments);
         else

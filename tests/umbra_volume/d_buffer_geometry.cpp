@@ -94,7 +94,7 @@ TEST_CASE("a D-buffer does not depend on the order in which a mesh's triangles c
         const float a = before.visibility(point, CutVisibility::exact, CutShare::edge);
         const float b = after.visibility(point, CutVisibility::exact, CutShare::edge);
         shadowed += a < 1.0F;
-        CHECK(a == doctest::Approx(b).epsilon(1e-5));
+        CHECK(static_cast<double>(a) == doctest::Approx(static_cast<double>(b)).epsilon(1e-5));
     }
     CHECK(shadowed > 400);
 }
