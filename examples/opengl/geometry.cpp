@@ -45,7 +45,6 @@ void Geometry::draw(std::size_t from, std::size_t to) const {
 
 void Geometry::draw_casters() const { draw(0, first_[caster_count()]); }
 void Geometry::draw_casters(std::size_t first, std::size_t end) const { draw(first_[first], first_[end]); }
-void Geometry::draw_caster(std::size_t mesh) const { draw(first_[mesh], first_[mesh + 1]); }
 void Geometry::draw_ground() const { draw(first_[caster_count()], first_.back()); }
 
 }  // namespace penumbra::opengl

@@ -18,7 +18,6 @@ class Geometry {
 
     void draw_casters() const;
     void draw_casters(std::size_t first, std::size_t end) const;  ///< meshes [first, end)
-    void draw_caster(std::size_t mesh) const;
     void draw_ground() const;
     std::size_t caster_count() const { return first_.size() - 2; }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../../examples/opengl/context.hpp"
+#include "../../examples/opengl/measures.hpp"
 #include "../../examples/opengl/viewer.hpp"
 
 using namespace penumbra;
@@ -23,13 +24,6 @@ struct Case {
     double rmse;   ///< against the C++
     double share;  ///< of points more than .01 off
 };
-
-double rmse(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += std::pow(static_cast<double>(a[i]) - static_cast<double>(b[i]), 2);
-    return std::sqrt(sum / static_cast<double>(a.size()));
-}
 
 void check(const Case& of, const opengl::Capabilities& can, bool reverse_depth, glm::ivec2 size) {
     std::string name = std::string(of.scene) + ", " + of.method;
@@ -47,9 +41,9 @@ void check(const Case& of, const opengl::Capabilities& can, bool reverse_depth, 
         off += std::abs(asked.visible[i] - by_cpp[i]) > 0.01F;
         shadowed += by_cpp[i] < 0.5F;
     }
-    const double count = static_cast<double>(by_cpp.size()), from_cpp = rmse(asked.visible, by_cpp);
+    const double count = static_cast<double>(by_cpp.size()), from_cpp = opengl::rmse(asked.visible, by_cpp);
     const double share = static_cast<double>(off) / count;
-    const double error = rmse(asked.visible, truth), cpp_error = rmse(by_cpp, truth);
+    const double error = opengl::rmse(asked.visible, truth), cpp_error = opengl::rmse(by_cpp, truth);
     MESSAGE(name << ": from the C++ " << from_cpp << ", " << 100.0 * share << " % off; from the truth " << error
                  << ", the C++ " << cpp_error);
     CHECK(shadowed > by_cpp.size() / 100);  // else nothing is compared

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
-#include <initializer_list>
 #include <penumbra/image.hpp>
 #include <utility>
 #include <vector>
@@ -40,7 +39,7 @@ class Texture {
     /// are undefined.
     Texture(GLenum format, glm::ivec2 size);
     static Texture array(GLenum format, glm::ivec2 size, int layers, int levels = 1);
-    /// RGBA32F, RGBA8 or R32F from texels, row 0 first.
+    /// RGBA32F or RGBA8 from texels, row 0 first.
     explicit Texture(const Image<glm::vec4>& texels);
     explicit Texture(const Image<glm::u8vec4>& texels);
 

@@ -39,6 +39,15 @@ struct Frame {
 
 using Query = std::function<void(const Vec3<float>* points, std::size_t count, float* visible)>;
 
+/// Of one of the library's shadows, made of these arguments.
+template <class Shadow, class... Arguments>
+Query query_of(const Arguments&... arguments) {
+    const auto shadow = std::make_shared<const Shadow>(arguments...);
+    return [shadow](const Vec3<float>* points, std::size_t count, float* visible) {
+        shadow->visibility(points, count, visible);
+    };
+}
+
 /// One of the library's methods by its shaders. Knobs are the options of the C++ class where it has them, so that
 /// `by_cpp` answers the same question.
 class Method {

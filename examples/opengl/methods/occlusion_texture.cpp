@@ -100,11 +100,7 @@ OcclusionTextureOptions OcclusionTexture::options() const {
 }
 
 Query OcclusionTexture::by_cpp(const scenes::Scene& scene) const {
-    const auto shadow = std::make_shared<OcclusionTextureShadow<float>>(
-        scene.casters, std::get<RectLight<float>>(scene.light), options());
-    return [shadow](const Vec3<float>* points, std::size_t count, float* visible) {
-        shadow->visibility(points, count, visible);
-    };
+    return query_of<OcclusionTextureShadow<float>>(scene.casters, std::get<RectLight<float>>(scene.light), options());
 }
 
 void OcclusionTexture::prepare(const scenes::Scene& scene, const Geometry&) {

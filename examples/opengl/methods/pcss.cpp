@@ -102,8 +102,6 @@ void main() {
 
 class Pcss final : public Method {
   public:
-    Pcss();
-
     bool takes(const scenes::Light&) const override { return true; }
     std::vector<Knob> knobs() override {
         return {number_knob("resolution", resolution_, 64, 8192),
@@ -124,6 +122,7 @@ class Pcss final : public Method {
     void look(const DiskLight<float>& light, const Vec3<float>& aim);
     void look(const LinearLight<float>& light, const Vec3<float>& aim);
     void fit(const std::vector<Mesh<float>>& casters);
+    void make_programs();
     void set_view(const Program& program) const;
 
     int resolution_ = 2048, blocker_samples_ = 16, filter_samples_ = 32;
@@ -141,9 +140,9 @@ class Pcss final : public Method {
     Handle<DeleteSampler> below_;
 };
 
-Pcss::Pcss()
-    : draw_map_({{}, {library("light.glsl"), view, map_vertex}}, {{}, {map_fragment}}),
-      shade_(Program::full_screen({{}, {shading_head, library("light.glsl"), view, shading}})) {
+void Pcss::make_programs() {
+    draw_map_ = Program({{}, {library("light.glsl"), view, map_vertex}}, {{}, {map_fragment}});
+    shade_ = Program::full_screen({{}, {shading_head, library("light.glsl"), view, shading}});
     GLuint name = 0;
     glGenSamplers(1, &name);
     below_ = Handle<DeleteSampler>(name);
@@ -175,6 +174,7 @@ void Pcss::prepare(const scenes::Scene& scene, const Geometry&) {
     std::visit([&](const auto& light) { look(light, aim); }, scene.light);
     is_disk_ = std::holds_alternative<DiskLight<float>>(scene.light);
     fit(scene.casters);
+    if (shade_.empty()) make_programs();
     if (map_.size().x == resolution_) return;
     map_ = Texture(GL_DEPTH_COMPONENT32F, {resolution_, resolution_});
     map_target_ = Framebuffer::depth_only(map_);
@@ -200,16 +200,11 @@ void Pcss::fit(const std::vector<Mesh<float>>& casters) {
 }
 
 Query Pcss::by_cpp(const scenes::Scene& scene) const {
-    const auto query = [](auto shadow) -> Query {
-        return [shadow](const Vec3<float>* points, std::size_t count, float* visible) {
-            shadow->visibility(points, count, visible);
-        };
-    };
     if (const auto* rectangle = std::get_if<RectLight<float>>(&scene.light))
-        return query(std::make_shared<PenumbraWedgeShadow<float>>(scene.casters, *rectangle));
+        return query_of<PenumbraWedgeShadow<float>>(scene.casters, *rectangle);
     if (const auto* disk = std::get_if<DiskLight<float>>(&scene.light))
-        return query(std::make_shared<UmbraVolumeShadow<float>>(scene.casters, *disk));
-    return query(std::make_shared<SoftShadowMap<float>>(scene.casters, std::get<LinearLight<float>>(scene.light)));
+        return query_of<UmbraVolumeShadow<float>>(scene.casters, *disk);
+    return query_of<SoftShadowMap<float>>(scene.casters, std::get<LinearLight<float>>(scene.light));
 }
 
 void Pcss::set_view(const Program& program) const {

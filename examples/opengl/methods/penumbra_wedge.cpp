@@ -168,11 +168,7 @@ PenumbraWedgeOptions PenumbraWedge::options() const {
 }
 
 Query PenumbraWedge::by_cpp(const scenes::Scene& scene) const {
-    const auto shadow =
-        std::make_shared<PenumbraWedgeShadow<float>>(scene.casters, std::get<RectLight<float>>(scene.light), options());
-    return [shadow](const Vec3<float>* points, std::size_t count, float* visible) {
-        shadow->visibility(points, count, visible);
-    };
+    return query_of<PenumbraWedgeShadow<float>>(scene.casters, std::get<RectLight<float>>(scene.light), options());
 }
 
 void PenumbraWedge::prepare(const scenes::Scene& scene, const Geometry&) {

@@ -112,11 +112,8 @@ SoftShadowMapOptions SoftShadowMapMethod::options() const {
 }
 
 Query SoftShadowMapMethod::by_cpp(const scenes::Scene& scene) const {
-    const auto shadow = std::make_shared<SoftShadowMap<float>>(scene.casters, std::get<LinearLight<float>>(scene.light),
-                                                               options(), std::vector<Mesh<float>>{scene.ground});
-    return [shadow](const Vec3<float>* points, std::size_t count, float* visible) {
-        shadow->visibility(points, count, visible);
-    };
+    return query_of<SoftShadowMap<float>>(scene.casters, std::get<LinearLight<float>>(scene.light), options(),
+                                          std::vector<Mesh<float>>{scene.ground});
 }
 
 /// Of the scene, an engine needs the depths of its nearest and farthest caster, bounds of all slopes, and which casters

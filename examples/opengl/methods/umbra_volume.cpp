@@ -136,11 +136,7 @@ std::vector<Knob> UmbraVolumeMethod::knobs() {
 }
 
 Query UmbraVolumeMethod::by_cpp(const scenes::Scene& scene) const {
-    const auto shadow =
-        std::make_shared<UmbraVolumeShadow<float>>(scene.casters, std::get<DiskLight<float>>(scene.light), options_);
-    return [shadow](const Vec3<float>* points, std::size_t count, float* visible) {
-        shadow->visibility(points, count, visible);
-    };
+    return query_of<UmbraVolumeShadow<float>>(scene.casters, std::get<DiskLight<float>>(scene.light), options_);
 }
 
 void UmbraVolumeMethod::prepare(const scenes::Scene& scene, const Geometry&) {
