@@ -95,6 +95,39 @@ LightFrame<T> light_frame(const LinearLight<T>& light, const Vec3<T>& aim = Vec3
 
 namespace detail {
 
+/// The ends, along one axis, of where points of a caster at [low, high] appear from receivers at [from, to], on the
+/// light's plane. E appears at E + (E − P)(m − 1) from P, m = p / (p − z) being between `least` and `most`.
+template <class T>
+Vec2<T> project_range(T low, T high, T from, T to, T least, T most) {
+    const T left = low - to, right = high - from;
+    return Vec2<T>(low + left * ((left < T(0) ? most : least) - T(1)),
+                   high + right * ((right > T(0) ? most : least) - T(1)));
+}
+
+}  // namespace detail
+
+/// Where on the light's plane any point of a caster's box may appear from any point of the receivers' box, both in
+/// light space. What the caster has behind the light's plane, and beyond the receivers, is left out; empty if nothing
+/// is left. Where some receiver lies no deeper than the caster, the rectangle reaches 1e9 times as far as they are
+/// apart. Error: 4 roundings of the largest coordinate, times p / (p − z).
+template <class T>
+Rect2<T> project_box(const Box3<T>& caster_ls, const Box3<T>& receivers_ls) {
+    const T near = caster_ls.min.z > T(0) ? caster_ls.min.z : T(0);
+    if (is_empty(caster_ls) || is_empty(receivers_ls) || !(near < receivers_ls.max.z) || !(caster_ls.max.z > T(0)))
+        return empty_rect<T>();
+    constexpr T far = T(1e9);
+    const T room = receivers_ls.min.z - caster_ls.max.z;
+    const T least = receivers_ls.max.z / (receivers_ls.max.z - near);
+    const T most = room * far > receivers_ls.min.z ? receivers_ls.min.z / room : far;
+    const Vec2<T> x = detail::project_range(caster_ls.min.x, caster_ls.max.x, receivers_ls.min.x, receivers_ls.max.x,
+                                            least, most > least ? most : least);
+    const Vec2<T> y = detail::project_range(caster_ls.min.y, caster_ls.max.y, receivers_ls.min.y, receivers_ls.max.y,
+                                            least, most > least ? most : least);
+    return {Vec2<T>(x.x, y.x), Vec2<T>(x.y, y.y)};
+}
+
+namespace detail {
+
 template <class T>
 bool require_finite(const Vec3<T>& v, const char* name) {
     return require(is_finite(v), [&] { return std::string(name) + " = " + text(v) + " is not finite"; });

@@ -295,8 +295,9 @@ TEST_CASE("two halves that touch have no seam; coincident casters are one") {
         const Mesh<float> right = quad<float>(low, {3, 3, -3}, {3, 3, 3}, high);
         for (const OverlapRule rule : {OverlapRule::additive, OverlapRule::bitmask}) {
             const PenumbraWedgeShadow<float> shadow({left, right}, light, with(rule));
+            const float most = rule == OverlapRule::additive ? 1e-6F : 0.25F / (32 * 32);  // what masks are not asked for
             for (const Vec3<float>& point : points_on_ground<float>(20, static_cast<std::uint32_t>(k), 0.9F))
-                CHECK(shadow.visibility(point) <= 1e-6F);
+                CHECK(shadow.visibility(point) <= most);
         }
         const PenumbraWedgeShadow<float> once({left}, light), twice({left, left}, light);
         for (const Vec3<float>& point : points_on_ground<float>(20, static_cast<std::uint32_t>(k), 2.0F))

@@ -32,7 +32,9 @@ using Points = std::vector<Vec3<T>>;
 template <class T>
 detail::DiskEdgeSum<T> shadow_of(const std::vector<Mesh<T>>& casters, const DiskLight<T>& light,
                                  DiskOverlap overlap = DiskOverlap::bitmask, int size = 32) {
-    return detail::DiskEdgeSum<T>(casters, light, overlap, size);
+    UmbraVolumeOptions options;
+    options.overlap = overlap, options.bitmask_size = size;
+    return detail::DiskEdgeSum<T>(casters, light, options);
 }
 template <class T>
 std::vector<T> shade(const detail::DiskEdgeSum<T>& shadow, const Points<T>& points) {

@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <iterator>
 #include <penumbra/combine.hpp>
+#include <penumbra/detail/variation.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
+#include <penumbra/occlusion_texture/kernel_variation.hpp>
 #include <penumbra/occlusion_texture/mipmap.hpp>
 #include <penumbra/occlusion_texture/n_buffer.hpp>
 #include <penumbra/occlusion_texture/options.hpp>
@@ -30,6 +32,8 @@ namespace penumbra {
 template <class T>
 class OcclusionTextureShadow {
   public:
+    using Real = T;
+    using Light = RectLight<T>;
     using Options = OcclusionTextureOptions;
 
     /// Reports meshes, lights and options out of their domain by name. No casters: everything is visible. A
@@ -66,7 +70,15 @@ class OcclusionTextureShadow {
             layers_);
     }
 
+    /// How much visibility can change between points of a box in light space; unknown where it is more than `most`
+    /// from its middle to its corners, where a slice that may shadow them holds some of the points, and for filters
+    /// that are not exact.
+    Variation<T> variation(const Box3<T>& box_ls, T most) const {
+        return std::visit([&](const auto& layers) { return variation(layers, box_ls, most); }, layers_);
+    }
+
     const Options& options() const { return options_; }
+    const LightFrame<T>& frame() const { return frame_; }
     const SliceCamera<T>& camera() const { return camera_; }
     const SliceRange<T>& range() const { return range_; }
     /// Memory of the prefiltered slices.
@@ -171,6 +183,57 @@ class OcclusionTextureShadow {
         const T w = T(1) + camera_.convergence * std::max(range_.top(slice), T(0));
         const Vec2<T> kernel = half_size_ * camera_.scale_tx * (T(2) / (w * static_cast<T>(options_.light_cells)));
         return floor_log2(clamp(std::max(kernel.x, kernel.y), T(1), T(16384))) + 2;
+    }
+
+    template <class Filter>
+    Variation<T> variation(const Layers<Filter>& layers, const Box3<T>& box_ls, T most) const {
+        const T cells = static_cast<T>(options_.light_cells);
+        const Vec3<T> half = (box_ls.max - box_ls.min) * T(0.5), zero(T(0), T(0), T(0));
+        Vec3<T> largest = zero, total = zero;
+        bool lit = true;
+        for (const Layer<Filter>& layer : layers) {
+            const T top = range_.top(layer.slice), bottom = range_.bottom(layer.slice);
+            if (!(relative_depth(top, range_.thickness, box_ls.max.z) > T(0))) continue;
+            const bool passed = relative_depth(top, range_.thickness, box_ls.min.z) >= passed_depth();
+            const T plane = options_.plane == SlicePlane::bottom ? bottom : (top + bottom) * T(0.5);
+            const Rect2<T> reach =
+                detail::kernel_reach(camera_, passed ? plane : top, std::min(plane, box_ls.max.z), box_ls, half_size_);
+            if (!may_touch(reach, layer)) continue;
+            if (!passed || !std::is_same_v<Filter, SummedArea<std::uint32_t>>) return Variation<T>::unknown();
+            const Vec3<T> change = detail::kernel_variation(camera_, plane, box_ls, half_size_, cells);
+            lit = false;
+            largest = glm::max(largest, change), total += change;
+            if (glm::dot(largest, half) > most) return Variation<T>::unknown();
+        }
+        if (lit) return Variation<T>::all_lit();
+        const Combination rule = options_.blend.combination;
+        const Vec3<T> change = rule == Combination::max    ? largest
+                               : rule == Combination::mean ? (largest + total) * T(0.5)
+                                                           : total;
+        if (glm::dot(change, half) > most) return Variation<T>::unknown();
+        Variation<T> result;
+        result.known = true;
+        result.along = change.x, result.across = change.y, result.deep = change.z;
+        return result;
+    }
+
+    /// The relative depth from which on a point has a slice behind it: its plane and its weight stay.
+    T passed_depth() const {
+        const T weight = options_.self_shadow == SelfShadow::fade    ? T(1)
+                         : options_.self_shadow == SelfShadow::clear ? T(2)
+                                                                     : T(1) + T(2) * T(options_.self_shadow_bias);
+        return std::max(weight, options_.plane == SlicePlane::bottom ? T(2) : T(1));
+    }
+
+    /// Whether a kernel within these texels may read what a slice holds.
+    template <class Filter>
+    bool may_touch(const Rect2<T>& kernels_tx, const Layer<Filter>& layer) const {
+        const Vec2<T> size = extent(kernels_tx);
+        const T cells = static_cast<T>(options_.light_cells), longer = std::max(size.x, size.y);
+        const T far = std::max(longer, cells) * static_cast<T>(Filter::reach) / cells + detail::smallest_box<T> * cells;
+        const Rect2<T> held = layer.occupied_tx;
+        return kernels_tx.min.x - far < held.max.x && kernels_tx.max.x + far > held.min.x &&
+               kernels_tx.min.y - far < held.max.y && kernels_tx.max.y + far > held.min.y;
     }
 
     template <class Filter>

@@ -161,7 +161,8 @@ bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraW
         case OverlapRule::bitmask:
             break;
     }
-    return blend_by_masks(index, tile, light, options.bitmask_size, may_give_up, occlusion);
+    return blend_by_masks(index, tile, light, options.bitmask_size, static_cast<T>(options.tolerance), may_give_up,
+                          occlusion);
 }
 
 }  // namespace penumbra::detail

@@ -11,6 +11,7 @@
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>
 #include <penumbra/penumbra_wedge/point_tile.hpp>
+#include <penumbra/penumbra_wedge/silhouette_variation.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 #include <vector>
 
@@ -62,6 +63,18 @@ class CasterIndex {
             if (n == asked.size()) shade_all();
         }
         if (n > 0) shade_all();
+    }
+
+    /// How much what casters hide of a light of this area can change between points of a box in light space, world
+    /// units, as exact sums say it; see silhouette_variation().
+    Variation<T> variation(const Box3<T>& box_ls, T light_area, T most) const {
+        if (index_.empty()) return Variation<T>::all_lit();
+        const T area = light_area * scale_ * scale_;
+        if (!(area >= half_size_.x * half_size_.y)) return Variation<T>::unknown();  // as small as T can tell apart
+        Variation<T> result =
+            silhouette_variation(index_, {box_ls.min * scale_, box_ls.max * scale_}, half_size_, area, most);
+        result.along *= scale_, result.across *= scale_, result.deep *= scale_;
+        return result;
     }
 
     const LightFrame<T>& frame() const { return frame_; }

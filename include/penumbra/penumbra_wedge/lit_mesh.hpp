@@ -32,7 +32,7 @@ struct Piece {
     std::vector<std::uint32_t> faces;
     std::vector<LitEdge> edges;
     bool solid = false;
-    bool simple = false;  ///< covers no part of the light twice, seen from anywhere: a convex solid, a single face
+    bool simple = false;  ///< covers no part of the light twice, seen from anywhere: a convex solid, a convex polygon
 };
 
 /// A mesh in light space, scaled; solids wound so that the light is outside.
@@ -182,6 +182,44 @@ bool is_convex(const LitMesh<T>& mesh, const Piece& piece, T tolerance) {
     return vertices - static_cast<std::ptrdiff_t>(piece.edges.size()) + faces == 2;
 }
 
+/// Whether a sheet is one convex polygon in a plane, cut into faces that are all wound alike.
+template <class T>
+bool is_convex_polygon(const LitMesh<T>& mesh, const Piece& piece, T tolerance) {
+    if (piece.faces.size() == 1) return true;
+    constexpr std::size_t most_faces = 64;  // each border is tried against all: larger sheets are seldom flat
+    if (piece.faces.size() > most_faces) return false;
+    Vec3<double> sum(0.0, 0.0, 0.0);
+    for (const std::uint32_t face : piece.faces) sum += mesh.normal(face);
+    const Vec3<double> normal = normalize_or(sum, Vec3<double>(0.0, 0.0, 0.0));
+    const double most = static_cast<double>(tolerance);
+    const auto all_vertices = [&](auto&& holds) {
+        return std::all_of(piece.faces.begin(), piece.faces.end(), [&](std::uint32_t face) {
+            const glm::uvec3& f = mesh.faces[face];
+            return holds(mesh.vertex(f.x)) && holds(mesh.vertex(f.y)) && holds(mesh.vertex(f.z));
+        });
+    };
+    const Vec3<double> at = mesh.vertex(piece.edges[0].a);
+    for (const std::uint32_t face : piece.faces)
+        if (!(glm::dot(normal, mesh.normal(face)) > 0.0)) return false;
+    if (!all_vertices([&](const Vec3<double>& v) { return std::abs(glm::dot(normal, v - at)) <= most; })) return false;
+    std::vector<std::uint32_t> all, border;
+    for (const LitEdge& edge : piece.edges) {
+        all.push_back(edge.a), all.push_back(edge.b);
+        if (edge.left != no_face && edge.right != no_face) continue;
+        border.push_back(edge.a), border.push_back(edge.b);
+        const bool forward = edge.left != no_face;  // its face runs along it from a to b, and lies to the left
+        const Vec3<double> a = mesh.vertex(forward ? edge.a : edge.b), b = mesh.vertex(forward ? edge.b : edge.a);
+        const Vec3<double> inwards = normalize_or(glm::cross(normal, b - a), Vec3<double>(0.0, 0.0, 0.0));
+        if (!all_vertices([&](const Vec3<double>& v) { return glm::dot(inwards, v - a) >= -most; })) return false;
+    }
+    const auto different = [](std::vector<std::uint32_t>& vertices) {
+        std::sort(vertices.begin(), vertices.end());
+        return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    };
+    // without holes, and its border runs around it once
+    return different(all) + piece.faces.size() == piece.edges.size() + 1 && different(border) * 2 == border.size();
+}
+
 /// Marks solids, and turns those around whose inside holds the light or that are wound inside out.
 template <class T>
 void orient(LitMesh<T>& mesh, Piece& piece, T tolerance) {
@@ -193,8 +231,10 @@ void orient(LitMesh<T>& mesh, Piece& piece, T tolerance) {
         if (edge.left != no_face && edge.right != no_face) continue;
         piece.solid = piece.solid && on_plane(edge);
     }
-    piece.simple = piece.faces.size() == 1;
-    if (!piece.solid) return;
+    if (!piece.solid) {
+        piece.simple = is_convex_polygon(mesh, piece, tolerance);
+        return;
+    }
     // from the light's centre, in whose plane caps lie and count for nothing
     double volume = 0.0, angle = 0.0;
     for (const std::uint32_t face : piece.faces) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <penumbra/combine.hpp>
 #include <penumbra/penumbra_wedge/bitmask.hpp>
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
@@ -221,22 +222,25 @@ class MaskBlender {
     std::array<MaskedOcclusion<T>, PointTile<T>::capacity> all_{};
 };
 
-/// Masks only for points at which they can tell anything: where pieces may overlap, by more than half a cell. May give
-/// up as WedgeIndex::visit does; returns whether it did not.
+/// Masks only for points at which they can tell anything: where pieces may overlap, by more than half a cell and by
+/// more than `tolerance` either way. May give up as WedgeIndex::visit does; returns whether it did not.
 template <class T, class Shape>
-bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, const Shape& shape, int size,
+bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, const Shape& shape, int size, T tolerance,
                     bool may_give_up, T* occlusion) {
     IntervalBlender<T, Shape> intervals(tile, shape);
     if (!index.visit(tile, intervals, may_give_up)) return false;
-    const T half_a_cell = T(0.5) / static_cast<T>(shape.cell_count(size));
+    const T least = std::max(T(0.5) / static_cast<T>(shape.cell_count(size)), T(2) * tolerance);
     PointTile<T> open;
     std::array<std::size_t, PointTile<T>::capacity> from;
+    std::array<OcclusionBounds<T>, PointTile<T>::capacity> bounds;
     for (std::size_t i = 0; i < tile.count; ++i) {
         const T total = intervals.total[i];
         const T upper = saturate(total), lower = clamp(total - intervals.overlap[i], intervals.largest[i], upper);
         occlusion[i] = T(0.5) * (lower + upper);
-        if (!(intervals.folded[i] > T(0)) && upper - lower <= half_a_cell) continue;
+        const bool folded = intervals.folded[i] > T(0);
+        if (!folded && upper - lower <= least) continue;
         from[open.count] = i;
+        bounds[open.count] = {folded ? T(0) : lower, folded ? T(1) : upper};
         open.push(tile[i]);
     }
     if (open.count == 0) return true;
@@ -245,7 +249,8 @@ bool blend_by_masks(const WedgeIndex<T>& index, const PointTile<T>& tile, const 
     index.visit(open, masks);
     std::array<T, PointTile<T>::capacity> masked;
     masks.result(masked.data());
-    for (std::size_t i = 0; i < open.count; ++i) occlusion[from[i]] = masked[i];
+    for (std::size_t i = 0; i < open.count; ++i)
+        occlusion[from[i]] = clamp(masked[i], bounds[i].lower, bounds[i].upper);
     return true;
 }
 

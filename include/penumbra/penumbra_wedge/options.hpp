@@ -24,13 +24,20 @@ struct PenumbraWedgeOptions {
     /// Cells along each side of the light for OverlapRule::bitmask: 8, 16 or 32.
     int bitmask_size = 32;
     SilhouetteFrom silhouette = SilhouetteFrom::point;
+    /// OverlapRule::bitmask: masks are left out where they can change visibility by no more, 0 to 1; half a cell in any
+    /// case. plan() sets it.
+    float tolerance = 0.0F;
 };
 
 /// Reports an option out of its range by name and value. True if there is none.
 inline bool validate(const PenumbraWedgeOptions& options) {
     const int size = options.bitmask_size;
     return detail::require(size == 8 || size == 16 || size == 32,
-                           [&] { return "options.bitmask_size = " + std::to_string(size) + " is not 8, 16 or 32"; });
+                           [&] { return "options.bitmask_size = " + std::to_string(size) + " is not 8, 16 or 32"; }) &&
+           detail::require(options.tolerance >= 0.0F && options.tolerance <= 1.0F, [&] {
+               return "options.tolerance = " + detail::text(static_cast<double>(options.tolerance)) +
+                      " is not in [0, 1]";
+           });
 }
 
 }  // namespace penumbra

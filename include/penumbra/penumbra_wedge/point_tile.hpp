@@ -45,11 +45,28 @@ struct PointTile {
             top = std::max(top, (y[i] - half_size.y) / depth[i]);
             bottom = std::min(bottom, (y[i] + half_size.y) / depth[i]);
         }
+        set_middle();
+    }
+    /// Stands for all points of a box, at depth > 0, and holds none.
+    void cover(const Box3<T>& points, const Vec2<T>& half_size) {
+        count = lanes = 0;
+        light = {-half_size, half_size};
+        box = points;
+        const auto slope = [&](T across, bool largest) {
+            return across / ((across > T(0)) == largest ? box.min.z : box.max.z);
+        };
+        right = slope(box.max.x - half_size.x, true), left = slope(box.min.x + half_size.x, false);
+        top = slope(box.max.y - half_size.y, true), bottom = slope(box.min.y + half_size.y, false);
+        set_middle();
+    }
+    Vec3<T> operator[](std::size_t i) const { return Vec3<T>(x[i], y[i], depth[i]); }
+
+  private:
+    void set_middle() {
         center = (box.min + box.max) * T(0.5);
         const Vec3<T> half = (box.max - box.min) * T(0.5);
         radius = std::sqrt(glm::dot(half, half)) * T(1.0001);
     }
-    Vec3<T> operator[](std::size_t i) const { return Vec3<T>(x[i], y[i], depth[i]); }
 };
 
 /// An edge as each lane of a tile sees it on the light's plane. It counts `coefficient` times there: 0 where it is not

@@ -28,6 +28,8 @@ namespace penumbra {
 template <class T>
 class PenumbraWedgeShadow {
   public:
+    using Real = T;
+    using Light = RectLight<T>;
     using Options = PenumbraWedgeOptions;
 
     /// Reports meshes, lights and options out of their domain by name. No casters: everything is visible. A light
@@ -54,6 +56,15 @@ class PenumbraWedgeShadow {
         casters_.visibility(points, count, result, [&](const PointTile<T>& tile, bool may_give_up, T* occlusion) {
             return detail::blend(casters_.index(), tile, options_, may_give_up, occlusion);
         });
+    }
+
+    /// How much visibility can change between points of a box in light space; unknown where it is more than `most`, and
+    /// by rules that are not right for casters which do not overlap.
+    Variation<T> variation(const Box3<T>& box_ls, T most) const {
+        if (options_.overlap != OverlapRule::bitmask && options_.overlap != OverlapRule::additive)
+            return Variation<T>::unknown();
+        const Vec2<T> half = casters_.scaled_half_size() / casters_.scale();
+        return casters_.variation(box_ls, T(4) * half.x * half.y, most);
     }
 
     const Options& options() const { return options_; }

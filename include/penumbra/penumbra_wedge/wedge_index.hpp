@@ -76,6 +76,31 @@ class WedgeIndex {
         return true;
     }
 
+    /// For all points of a tile's box: calls visitor.begin_piece(box, simple) for pieces that may reach into their
+    /// pyramids, and visitor.edge(a, b, weight) for every edge there, and some beside, that may be on the silhouette
+    /// from any of them, `weight` being the most that it may count. Stops where the visitor answers false. Returns
+    /// whether it did not.
+    template <class Visitor>
+    bool visit_candidates(const PointTile<T>& tile, Visitor& visitor) const {
+        const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
+        for (std::uint32_t at = 0; at < end;) {
+            const Node& node = tree_.nodes[at];
+            const bool is_part = node.in_piece && !node.piece_root;
+            if (misses(tile, node.box, is_part)) {
+                at = node.skip;
+                continue;
+            }
+            if (node.piece_root && !visitor.begin_piece(node.box, node.simple)) return false;
+            if (node.in_piece && has_no_silhouette(tile, node)) {
+                at = node.skip;
+                continue;
+            }
+            if (node.edge_count > 0 && !visit_candidates_of(tile, node, visitor)) return false;
+            ++at;
+        }
+        return true;
+    }
+
   private:
     using Node = detail::WedgeNode<T>;
     using Face = detail::WedgeFace<T>;
@@ -195,6 +220,40 @@ class WedgeIndex {
             const T value = from_light ? (one_side || away || front ? fixed : T(0)) : seen;
             lanes[i] = face.depth_max < tile.depth[i] ? value : T(0);
         }
+    }
+    template <class Visitor>
+    bool visit_candidates_of(const PointTile<T>& tile, const Node& node, Visitor& visitor) const {
+        struct Range {
+            int least, most;
+        };
+        std::array<Range, Coefficients::most> ranges;
+        ranges[0] = {0, 0}, ranges[1] = {-1, -1};
+        for (std::size_t f = 0; f < node.face_count; ++f) {
+            const Face& face = tree_.faces[node.first_face + f];
+            Range& range = ranges[f + 2];
+            range = {0, 0};
+            if (face.depth_min >= tile.box.max.z) continue;  // beyond all points
+            const T middle = glm::dot(face.normal, tile.center - face.a);
+            const T room = spread(tile, glm::abs(face.normal), glm::abs(tile.center - face.a));
+            const bool away_all = middle + room<-tolerance_, away_none = middle - room> - tolerance_;
+            const bool front_all = middle - room > tolerance_;
+            if (from_ == SilhouetteFrom::light_center) {
+                range = {face.from_light, face.from_light};
+                if (touches(tile, box_of(face)) && !away_all && !front_all)
+                    range = {std::min<int>(face.from_light, 0), std::max<int>(face.from_light, 0)};
+            } else if (face.solid) {
+                range = {away_none ? 0 : -1, away_all ? -1 : 0};
+            } else {
+                range = {front_all ? 1 : away_none ? 0 : -1, away_all ? -1 : 1};
+            }
+        }
+        for (std::size_t e = 0; e < node.edge_count; ++e) {
+            const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
+            const Range left = ranges[edge.left], right = ranges[edge.right];
+            const int weight = std::max(left.most - right.least, right.most - left.least);
+            if (weight > 0 && !visitor.edge(edge.a, edge.b, weight)) return false;
+        }
+        return true;
     }
     static Box3<T> box_of(const Face& face) { return extend(extend(extend(empty_box<T>(), face.a), face.b), face.c); }
 

@@ -27,6 +27,8 @@ namespace penumbra {
 template <class T>
 class SoftShadowMap {
   public:
+    using Real = T;
+    using Light = LinearLight<T>;
     using Options = SoftShadowMapOptions;
 
     /// Reports meshes, lights and options out of their domain by name. No casters: everything is visible. A light of no
@@ -75,6 +77,8 @@ class SoftShadowMap {
 
     const Options& options() const { return options_; }
     const LightFrame<T>& frame() const { return frame_; }
+    /// The texels of its maps; empty without casters.
+    const LightMapView<T>& view() const { return view_; }
     /// How many maps were drawn of points on the light; 0 without casters.
     int samples() const { return samples_; }
     /// Empty unless options().mode is LinearMode::hard or skins.

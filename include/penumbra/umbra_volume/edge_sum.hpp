@@ -66,8 +66,11 @@ class DiskEdgeSum {
     DiskEdgeSum() = default;
     /// Arguments in their domain: see validate(). Everything is visible past no casters. Radius 0 casts hard shadows:
     /// the light is as small as T can tell apart.
-    DiskEdgeSum(const std::vector<Mesh<T>>& casters, const DiskLight<T>& light, DiskOverlap overlap, int bitmask_size)
-        : overlap_(overlap), bitmask_size_(bitmask_size), mask_(bitmask_size) {
+    DiskEdgeSum(const std::vector<Mesh<T>>& casters, const DiskLight<T>& light, const UmbraVolumeOptions& options)
+        : overlap_(options.overlap),
+          bitmask_size_(options.bitmask_size),
+          tolerance_(static_cast<T>(options.tolerance)),
+          mask_(options.bitmask_size) {
         const Box3<T> box = bounds(casters);
         if (is_empty(box)) return;
         casters_ = CasterIndex<T>(casters, box, light_frame(light), Vec2<T>(light.radius, light.radius),
@@ -95,15 +98,20 @@ class DiskEdgeSum {
                 case DiskOverlap::bitmask:
                     break;
             }
-            return blend_by_masks(casters_.index(), tile, light, bitmask_size_, may_give_up, occlusion);
+            return blend_by_masks(casters_.index(), tile, light, bitmask_size_, tolerance_, may_give_up, occlusion);
         });
     }
 
+    /// See CasterIndex::variation().
+    Variation<T> variation(const Box3<T>& box_ls, T radius, T most) const {
+        return casters_.variation(box_ls, pi<T> * radius * radius, most);
+    }
     std::size_t bytes() const { return casters_.index().bytes(); }
 
   private:
     DiskOverlap overlap_ = DiskOverlap::bitmask;
     int bitmask_size_ = 32;
+    T tolerance_ = T(0);
     DiskCells mask_;
     CasterIndex<T> casters_;
 };

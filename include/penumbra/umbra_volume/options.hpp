@@ -51,6 +51,8 @@ struct UmbraVolumeOptions {
     // sums over edges
     DiskOverlap overlap = DiskOverlap::bitmask;
     int bitmask_size = 32;  ///< cells along the light's diameter: 8, 16 or 32
+    /// Masks are left out where they can change visibility by no more, 0 to 1; half a cell in any case. plan() sets it.
+    float tolerance = 0.0F;
 
     // D-buffers
     int resolution = 1024;  ///< texels along a side, 1 to 16384
@@ -70,6 +72,10 @@ inline bool validate(const UmbraVolumeOptions& options) {
     };
     if (options.bitmask_size != 8 && options.bitmask_size != 16 && options.bitmask_size != 32)
         return report("bitmask_size", options.bitmask_size, "8, 16 or 32");
+    if (!(options.tolerance >= 0.0F && options.tolerance <= 1.0F))
+        return detail::require(false, [&] {
+            return "options.tolerance = " + detail::text(static_cast<double>(options.tolerance)) + " is not in [0, 1]";
+        });
     if (options.resolution < 1 || options.resolution > 16384)
         return report("resolution", options.resolution, "from 1 to 16384");
     if (options.layers != 1 && options.layers != 2) return report("layers", options.layers, "1 or 2");

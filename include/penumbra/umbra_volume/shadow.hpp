@@ -21,6 +21,8 @@ namespace penumbra {
 template <class T>
 class UmbraVolumeShadow {
   public:
+    using Real = T;
+    using Light = DiskLight<T>;
     using Options = UmbraVolumeOptions;
 
     /// Reports meshes, lights and options out of their domain by name. No casters: everything is visible. Radius 0:
@@ -31,7 +33,7 @@ class UmbraVolumeShadow {
         if (is_empty(bounds(casters))) return;
         frame_ = light_frame(light);
         if (options.mode == DiskMode::edge_sum)
-            edge_sum_ = detail::DiskEdgeSum<T>(casters, light, options.overlap, options.bitmask_size);
+            edge_sum_ = detail::DiskEdgeSum<T>(casters, light, options), radius_ = light.radius;
         else
             d_buffer_ = DBuffer<T>(casters, frame_, light.radius, options.resolution, options.layers,
                                    options.silhouette, options.depth);
@@ -54,6 +56,14 @@ class UmbraVolumeShadow {
                             : T(1);
     }
 
+    /// How much visibility can change between points of a box in light space; unknown where it is more than `most`, and
+    /// for D-buffers, whose answers change from texel to texel.
+    Variation<T> variation(const Box3<T>& box_ls, T most) const {
+        const bool is_exact = options_.mode == DiskMode::edge_sum && options_.overlap != DiskOverlap::maximum &&
+                              options_.overlap != DiskOverlap::product;
+        return is_exact ? edge_sum_.variation(box_ls, radius_, most) : Variation<T>::unknown();
+    }
+
     const Options& options() const { return options_; }
     const LightFrame<T>& frame() const { return frame_; }
     /// Empty unless options().mode is DiskMode::d_buffer.
@@ -63,6 +73,7 @@ class UmbraVolumeShadow {
   private:
     Options options_;
     LightFrame<T> frame_{};
+    T radius_ = T(0);
     detail::DiskEdgeSum<T> edge_sum_;
     DBuffer<T> d_buffer_;
 };
