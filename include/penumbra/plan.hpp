@@ -2,7 +2,9 @@
 // them.
 #pragma once
 
+#include <penumbra/plan/cost.hpp>
 #include <penumbra/plan/effect.hpp>
 #include <penumbra/plan/extents.hpp>
+#include <penumbra/plan/method_front.hpp>
 #include <penumbra/plan/planned_shadow.hpp>
 #include <penumbra/plan/planner.hpp>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <penumbra/occlusion_texture/shadow.hpp>
 #include <penumbra/penumbra_wedge/shadow.hpp>
 #include <penumbra/plan/candidates.hpp>
@@ -80,19 +79,25 @@ class Planner {
         plan_.options = settings.full, plan_.light = light, plan_.tolerance = tolerance;
     }
 
+    /// The plan for the tolerance: half of it for what is left out everywhere, half for what points and tiles decide.
     Plan<Shadow> make() {
-        // half for what is left out everywhere, half for what points and tiles decide
-        const T budget = plan_.tolerance * T(0.5);
-        CandidateSearch<T> search{casters_, extents_, budget, {}};
+        const Plan<Shadow>* const before = settings_.previous;
+        return make([&](std::vector<Candidate<T>>& candidates) {
+            return detail::select(candidates, budget(), before ? settings_.hysteresis : T(0), [&](const auto& one) {
+                if (!before) return true;
+                if (one.effect != Effect::casters) return !before->simulates(one.effect);
+                return !std::binary_search(before->casters.begin(), before->casters.end(), one.caster);
+            });
+        });
+    }
+    /// The plan without what select(candidates) marks as out; it returns what that loses.
+    template <class Select>
+    Plan<Shadow> make(const Select& select) {
+        CandidateSearch<T> search{casters_, extents_, budget(), {}};
         find_casters(search);
         find_penumbra(search);
         find_candidates(settings_.full, search);
-        const Plan<Shadow>* const before = settings_.previous;
-        plan_.bound = select(search.found, budget, before ? settings_.hysteresis : T(0), [&](const auto& candidate) {
-            if (!before) return true;
-            if (candidate.effect != Effect::casters) return !before->simulates(candidate.effect);
-            return !std::binary_search(before->casters.begin(), before->casters.end(), candidate.caster);
-        });
+        plan_.bound = select(search.found);
         keep_casters(search.found);
         for (const Candidate<T>& candidate : search.found) {
             if (candidate.effect == Effect::casters) continue;
@@ -100,13 +105,15 @@ class Planner {
                 {candidate.effect, !candidate.out, candidate.loss, T(0), candidate.reason, candidate.number});
             if (candidate.out) leave_out(candidate);
         }
-        decide_at_points(budget);
+        decide_at_points(budget());
         std::stable_sort(plan_.decisions.begin(), plan_.decisions.end(),
                          [](const auto& a, const auto& b) { return a.effect < b.effect; });
         return std::move(plan_);
     }
 
   private:
+    T budget() const { return plan_.tolerance * T(0.5); }
+
     void find_casters(CandidateSearch<T>& search) const {
         if (are_separable(static_cast<const Shadow*>(nullptr), settings_.full)) {
             for (std::size_t i = 0; i < casters_.size(); ++i)
