@@ -1,7 +1,8 @@
 // The three lights, and the frame in which a light sees the scene.
 //
 // Options: none
-// Error:   4 ULP a component of a frame; positions in it by 3 roundings of the offset from the light.
+// Error:   4 ULP a component of a frame; positions in it by 3 roundings of the offset from the light; of project_box,
+//          see there.
 // C++:     include/penumbra/light.hpp
 #ifndef PENUMBRA_LIGHT_GLSL
 #define PENUMBRA_LIGHT_GLSL
@@ -94,6 +95,36 @@ penumbra_LightFrame penumbra_light_frame(penumbra_LinearLight light, vec3 aim) {
     line.half_v = vec3(0.0f, 0.0f, 0.0f);
     line.center = light.a + line.half_u;
     return penumbra_light_frame(line, aim);
+}
+
+// The ends, along one axis, of where points of a caster at [low, high] appear from receivers at [from, to], on the
+// light's plane. E appears at E + (E - P)(m - 1) from P, m = p / (p - z) being between `least` and `most`.
+vec2 penumbra_project_range(float low, float high, float from, float to, float least, float most) {
+    float left = low - to;
+    float right = high - from;
+    return vec2(low + left * ((left < 0.0f ? most : least) - 1.0f),
+                high + right * ((right > 0.0f ? most : least) - 1.0f));
+}
+
+// Where on the light's plane any point of a caster's box may appear from any point of the receivers' box, both in light
+// space. What the caster has behind the light's plane, and beyond the receivers, is left out; empty if nothing is left.
+// Where some receiver lies no deeper than the caster, the rectangle reaches 1e9 times as far as they are apart. Error:
+// 4 roundings of the largest coordinate, times p / (p - z).
+penumbra_Rect2 penumbra_project_box(penumbra_Box3 caster_ls, penumbra_Box3 receivers_ls) {
+    float near = caster_ls.min.z > 0.0f ? caster_ls.min.z : 0.0f;
+    if (penumbra_is_empty(caster_ls) || penumbra_is_empty(receivers_ls) || !(near < receivers_ls.max.z) ||
+        !(caster_ls.max.z > 0.0f))
+        return penumbra_empty_rect();
+    float far = 1e9f;
+    float room = receivers_ls.min.z - caster_ls.max.z;
+    float least = receivers_ls.max.z / (receivers_ls.max.z - near);
+    float most = room * far > receivers_ls.min.z ? receivers_ls.min.z / room : far;
+    most = most > least ? most : least;
+    vec2 x = penumbra_project_range(caster_ls.min.x, caster_ls.max.x, receivers_ls.min.x, receivers_ls.max.x, least,
+                                    most);
+    vec2 y = penumbra_project_range(caster_ls.min.y, caster_ls.max.y, receivers_ls.min.y, receivers_ls.max.y, least,
+                                    most);
+    return penumbra_rect2(vec2(x.x, y.x), vec2(x.y, y.y));
 }
 
 #endif

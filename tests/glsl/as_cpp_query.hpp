@@ -4,6 +4,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // some options leave a parameter unused
 #include "../../shaders/penumbra/light.glsl"
+#include "../../shaders/penumbra/plan/extents.glsl"
 #ifndef PENUMBRA_WITHOUT_SLICES
 #include "../../shaders/penumbra/occlusion_texture/shadow.glsl"
 #endif
@@ -61,6 +62,7 @@ struct WedgeQuery {
     static constexpr int overlap = PENUMBRA_PENUMBRA_WEDGE_OVERLAP;
     static constexpr int silhouette = PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE;
     static constexpr int bitmask_size = PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE;
+    static constexpr float tolerance = PENUMBRA_PENUMBRA_WEDGE_TOLERANCE;
 
     static float visibility(sampler2D wedges, const Info& info, vec3 point_ls) {
         return penumbra_visibility(wedges, info, point_ls);
@@ -127,6 +129,7 @@ struct DBufferQuery {
 #undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_INDEX_GLSL
 #undef PENUMBRA_PENUMBRA_WEDGE_WEDGE_TEXELS_GLSL
+#undef PENUMBRA_PLAN_EXTENTS_GLSL
 #undef PENUMBRA_SLICES_GLSL
 #undef PENUMBRA_SLICE_CAMERA_GLSL
 #undef PENUMBRA_SOFT_SHADOW_MAP_DISCONTINUITY_GLSL
@@ -155,6 +158,7 @@ struct DBufferQuery {
 #undef PENUMBRA_PENUMBRA_WEDGE_CELLS
 #undef PENUMBRA_PENUMBRA_WEDGE_OVERLAP
 #undef PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE
+#undef PENUMBRA_PENUMBRA_WEDGE_TOLERANCE
 #undef PENUMBRA_SOFT_SHADOW_MAP_EDGES
 #undef PENUMBRA_SOFT_SHADOW_MAP_HARD
 #undef PENUMBRA_SOFT_SHADOW_MAP_MASK

@@ -61,6 +61,11 @@ namespace bitmask_16_center {
 #include "as_cpp_query.hpp"
 }  // namespace bitmask_16_center
 
+namespace bitmask_tolerant {
+#define PENUMBRA_PENUMBRA_WEDGE_TOLERANCE 0.02f
+#include "as_cpp_query.hpp"
+}  // namespace bitmask_tolerant
+
 }  // namespace glsl
 
 #include <algorithm>
@@ -93,7 +98,7 @@ typename Query::Info info_of(const penumbra::WedgeTexels& texels) {
 template <class Query>
 penumbra::PenumbraWedgeOptions options_of() {
     return {static_cast<penumbra::OverlapRule>(Query::overlap), Query::bitmask_size,
-            static_cast<penumbra::SilhouetteFrom>(Query::silhouette)};
+            static_cast<penumbra::SilhouetteFrom>(Query::silhouette), Query::tolerance};
 }
 
 template <class Query>
@@ -145,6 +150,7 @@ TEST_CASE("visibility is that of the C++, bit for bit, by every rule") {
     compare<glsl::rectangle_product::WedgeQuery>();
     compare<glsl::bitmask_8::WedgeQuery>();
     compare<glsl::bitmask_16_center::WedgeQuery>();
+    compare<glsl::bitmask_tolerant::WedgeQuery>();
     compare<glsl::WedgeQuery>();
 }
 

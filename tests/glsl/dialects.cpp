@@ -213,6 +213,8 @@ TEST_CASE("passes and queries compile with every option") {
                           {"PENUMBRA_WEDGE_OVERLAP " + std::to_string(rule), "PENUMBRA_WEDGE_SILHOUETTE " + from,
                            "PENUMBRA_WEDGE_BITMASK_SIZE " + size},
                           main);
+        check("penumbra_wedge/shadow.glsl", "frag", version, {"PENUMBRA_WEDGE_TOLERANCE 0.02"}, main);
+        check("plan/tile_classes.frag", "frag", version, {"TILE_SIZE 16"}, "");
         for (const std::string layers : {"1", "2"})
             for (const std::string form : {"0", "1", "2"})
                 for (const std::string share : {"0", "1"})
@@ -262,7 +264,8 @@ TEST_CASE("passes and queries compile with every option") {
         // all methods in one shader
         check("penumbra_wedge/shadow.glsl", "frag", version, {},
               shipped("occlusion_texture/shadow.glsl") + shipped("umbra_volume/d_buffer.glsl") +
-                  shipped("soft_shadow_map/skin_maps.glsl") + shipped("soft_shadow_map/row_segments.glsl") + main);
+                  shipped("soft_shadow_map/skin_maps.glsl") + shipped("soft_shadow_map/row_segments.glsl") +
+                  shipped("plan/extents.glsl") + main);
     }
     for (const std::string version : {"430 core", "310 es"})
         check("occlusion_texture/summed_area_scan.comp", "comp", version, {"SCAN_COLUMNS 1"}, "");

@@ -13,6 +13,7 @@
 #include "functions/penumbra_wedge_overlap.hpp"
 #include "functions/penumbra_wedge_packing.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
+#include "functions/plan.hpp"
 #include "functions/soft_shadow_map.hpp"
 #include "functions/soft_shadow_map_rows.hpp"
 #include "functions/umbra_volume.hpp"
@@ -32,6 +33,7 @@ inline std::vector<Function> all() {
     add_penumbra_wedge_overlap(result);
     add_penumbra_wedge_packing(result);
     add_penumbra_wedge_wedge(result);
+    add_plan(result);
     add_soft_shadow_map(result);
     add_soft_shadow_map_rows(result);
     add_umbra_volume(result);
@@ -46,6 +48,8 @@ inline std::vector<Function> all() {
 #undef V2
 #undef V3
 #undef RECT
+#undef BOX
+#undef EXTENT
 #undef FRAME
 #undef CAMERA
 #undef RANGE

@@ -59,6 +59,7 @@ passes() (
     case $2 in
         occlusion_texture/*) queries="lookups queries" as_cpp=as_cpp_lookups ;;
         penumbra_wedge/*) queries=wedge_queries as_cpp=as_cpp_wedges ;;
+        plan/*) queries='' as_cpp=as_cpp ;;
         soft_shadow_map/*) queries=map_queries as_cpp=as_cpp_maps ;;
         umbra_volume/*) queries=d_buffer_queries as_cpp=as_cpp_d_buffers ;;
     esac

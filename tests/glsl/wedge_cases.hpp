@@ -16,14 +16,16 @@ inline std::vector<std::string> wedge_defines(const PenumbraWedgeOptions& option
         return std::string("PENUMBRA_PENUMBRA_WEDGE_") + name + " " + std::to_string(value);
     };
     return {define("OVERLAP", static_cast<int>(options.overlap)),
-            define("SILHOUETTE", static_cast<int>(options.silhouette)), define("BITMASK_SIZE", options.bitmask_size)};
+            define("SILHOUETTE", static_cast<int>(options.silhouette)), define("BITMASK_SIZE", options.bitmask_size),
+            "PENUMBRA_PENUMBRA_WEDGE_TOLERANCE " + std::to_string(options.tolerance)};
 }
 inline std::string wedge_name(const PenumbraWedgeOptions& options) {
     constexpr const char* names[] = {"additive",   "maximum",   "product",           "quadrants",
                                      "rectangles", "centroids", "rectangle product", "bitmask "};
     return names[static_cast<int>(options.overlap)] +
            (options.overlap == OverlapRule::bitmask ? std::to_string(options.bitmask_size) : "") +
-           (options.silhouette == SilhouetteFrom::point ? "" : ", from the light");
+           (options.silhouette == SilhouetteFrom::point ? "" : ", from the light") +
+           (options.tolerance > 0.0F ? ", tolerant" : "");
 }
 
 /// A shadow of a scene, points in it, and what they see by the C++.

@@ -80,6 +80,7 @@ TEST_CASE("visibility is that of the C++, by every rule, with silhouettes from p
     for (const int size : {8, 16, 32}) all.push_back({OverlapRule::bitmask, size, SilhouetteFrom::point});
     for (const OverlapRule rule : {OverlapRule::additive, OverlapRule::rectangles, OverlapRule::bitmask})
         all.push_back({rule, 16, SilhouetteFrom::light_center});
+    all.push_back({OverlapRule::bitmask, 32, SilhouetteFrom::point, 0.02F});
     if (mutant)  // mutants.sh runs this a few hundred times
         all = {{OverlapRule::bitmask, 32, SilhouetteFrom::point},
                {OverlapRule::additive, 32, SilhouetteFrom::light_center}};

@@ -1,6 +1,8 @@
 // What all silhouettes block together by masks, where intervals do not say it already.
 //
-// Options: PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl
+// Options: PENUMBRA_PENUMBRA_WEDGE_TOLERANCE  masks are left out where they can change visibility by no more, 0
+//                                             (default) to 1; half a cell in any case
+//          PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl
 // Error:   that of the method; decides as the C++ where the rounding of divisions is the same
 // C++:     include/penumbra/penumbra_wedge/mask_blending.hpp
 #ifndef PENUMBRA_PENUMBRA_WEDGE_MASK_BLENDING_GLSL
@@ -9,6 +11,10 @@
 #include "bitmask.glsl"
 #include "tile_sums.glsl"
 #include "wedge_index.glsl"
+
+#ifndef PENUMBRA_PENUMBRA_WEDGE_TOLERANCE
+#define PENUMBRA_PENUMBRA_WEDGE_TOLERANCE 0.0f
+#endif
 
 // How many pieces are told apart by where they are.
 #define PENUMBRA_WEDGE_KEPT 23
@@ -33,12 +39,12 @@ penumbra_Rect2 penumbra_include_hidden_edges(penumbra_WedgePoint p, penumbra_Box
 // What all pieces together block of the light, in [0, 1].
 //
 // The first way through the tree gives an interval in which the truth lies, from the exact area of each piece and from
-// a rectangle around it: two pieces overlap by no more than their rectangles do. Where it is wider than half a cell, or
-// a piece may lie over itself, the second way adds masks. Both are one loop in one function: what it calls is large,
-// and drivers copy arrays that functions take and return.
+// a rectangle around it: two pieces overlap by no more than their rectangles do. Where it is wider than half a cell and
+// than the tolerance either way, or a piece may lie over itself, the second way adds masks. Both are one loop in one
+// function: what it calls is large, and drivers copy arrays that functions take and return.
 float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p) {
     int size = PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE;
-    float half_a_cell = 0.5f / float(size * size);
+    float least = max(0.5f / float(size * size), 2.0f * PENUMBRA_PENUMBRA_WEDGE_TOLERANCE);
     float unit = 1.0f / penumbra_area(p.light);
     // the piece at hand
     float sum = 0.0f;
@@ -125,14 +131,15 @@ float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info,
         } else if (!is_second) {
             upper = penumbra_saturate(total);
             lower = penumbra_clamp(total - overlap, largest, upper);
-            is_second = folds || upper - lower > half_a_cell;
+            is_second = folds || upper - lower > least;
             if (is_second) {
                 c = penumbra_first_edge();
                 c.found = PENUMBRA_WEDGE_GROUP;  // not over
             }
         }
     } while (c.found != PENUMBRA_WEDGE_NOTHING);
-    return is_second ? masked.occlusion : 0.5f * (lower + upper);
+    if (!is_second) return 0.5f * (lower + upper);
+    return penumbra_clamp(masked.occlusion, folds ? 0.0f : lower, folds ? 1.0f : upper);
 }
 
 #endif

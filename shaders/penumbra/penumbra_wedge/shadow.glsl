@@ -6,6 +6,7 @@
 //
 // Options: PENUMBRA_PENUMBRA_WEDGE_OVERLAP: see blending.glsl
 //          PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl
+//          PENUMBRA_PENUMBRA_WEDGE_TOLERANCE: see mask_blending.glsl
 //          PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE: see wedge_index.glsl
 // Error:   that of the method; 2e-6 from the C++, and one cell of a mask where a middle lies on an edge to rounding
 // Source:  V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006

@@ -16,6 +16,7 @@ inline Vec3<float> v3(const float* in) { return {in[0], in[1], in[2]}; }
 inline Rect2<float> rect(const float* in) { return {v2(in), v2(in + 2)}; }
 inline void put(const Vec2<float>& v, float* out) { out[0] = v.x, out[1] = v.y; }
 inline void put(const Vec3<float>& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+inline Box3<float> box(const float* in) { return {v3(in), v3(in + 3)}; }
 inline void put(const Rect2<float>& r, float* out) { put(r.min, out), put(r.max, out + 2); }
 inline void put(const LightFrame<float>& f, float* out) {
     put(f.origin, out), put(f.u, out + 3), put(f.v, out + 6), put(f.normal, out + 9);
@@ -94,6 +95,23 @@ inline float largest(const float* in, int count) {
 inline void slices(float* in) {
     in[0] = moderate(in[0]), in[1] = std::abs(moderate(in[1])), in[2] = whole(in[2], 1, 64);
     in[3] = moderate(in[3]);
+}
+
+/// 0, or 2^-20 to 1: products and ratios of a few are normal numbers.
+inline float moderate_share(float x) { return moderate(share(x)); }
+/// A box in light space, before the light or behind it, now and then flat, seldom empty.
+inline void caster_box(float* in) {
+    for (int k = 0; k < 3; ++k) {
+        const float low = in[k], size = in[3 + k];
+        in[k] = (k == 2 && low < 0.0F ? 1.0F : 4.0F) * std::copysign(moderate_share(low), low);
+        in[3 + k] = in[k] + (size < -1e30F ? -1.0F : 4.0F * moderate_share(size));
+    }
+}
+/// Around points that casters are before, most of them.
+inline void receiver_box(float* in) {
+    const float away = in[2] < 0.0F ? 0.0F : 4.0F;
+    caster_box(in);
+    in[2] += away, in[5] += away;
 }
 
 }  // namespace penumbra::test::functions

@@ -46,7 +46,12 @@ struct Function {
 #define V2(k) vec2(I(k), I(k + 1))
 #define V3(k) vec3(I(k), I(k + 1), I(k + 2))
 #define RECT(k) penumbra_rect2(V2(k), V2(k + 2))
+#define BOX(k) penumbra_box3(V3(k), V3(k + 3))
 #define FRAME penumbra_make_frame(V3(0), V3(3), V3(6), V3(9))
+#define EXTENT(k)               \
+    penumbra_LightExtent light; \
+    light.half_size = V2(k);    \
+    light.disk = I(k + 2) > 0.0f
 #define CAMERA              \
     penumbra_SliceCamera c; \
     c.convergence = I(0);   \

@@ -77,6 +77,15 @@ inline void add_light(std::vector<Function>& list) {
             },
             moderate_all<6>, 2, [](const float* i) { return largest(i, 6); }
     });
+    list.push_back({
+        "project_box", "light", 12, 4, GLSL(penumbra_Rect2 r = penumbra_project_box(BOX(0), BOX(6)); PUT_RECT(0, r);),
+            [](const float* i, float* o) { put(project_box(box(i), box(i + 6)), o); },
+            [](float* i) { caster_box(i), receiver_box(i + 6); }, 8, [](const float* i) {
+                float projected[4];
+                put(project_box(box(i), box(i + 6)), projected);
+                return std::max(largest(i, 12), largest(projected, 4));
+            }
+    });
 }
 
 }  // namespace penumbra::test::functions
