@@ -5,7 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
     cat <<'END'
-Usage: examples/run.sh [--window | --headless | --timings | --scaling | --benchmark] [--no-install]
+Usage: examples/run.sh [--window | --headless | --timings | --scaling | --plans | --benchmark] [--no-install]
                        [options of the program]
 
 Installs what the examples need (Debian, Ubuntu), builds them in build/examples and runs the study: each method
@@ -15,6 +15,7 @@ beside ray-traced truth on many scenes, with what it costs. It prints a table an
   --headless    the same without a window: pictures, times, comparison with the C++
   --timings     time every method on the GPU; writes out/opengl/timings.csv
   --scaling     measure cost against the size of the scene; writes out/scaling/index.html
+  --plans       measure what plans save, scene by scene; writes out/plans/plans.md
   --benchmark   run the benchmark of the prefilters; writes out/benchmark/prefilter.json
   --no-install  take the packages as they are
   --help        this text and, once built, the program's own options
@@ -39,6 +40,7 @@ while (($#)); do
         --headless) program=opengl_example options+=("$1") ;;
         --timings) program=opengl_example options+=("$1" "$root/out/opengl/timings.csv") ;;
         --scaling) folder=scaling options+=("$1") ;;
+        --plans) folder=plans options+=("$1") ;;
         --out) out=${2:?--out needs a folder} && shift ;;
         --out=*) out=${1#--out=} ;;
         *) options+=("$1") ;;

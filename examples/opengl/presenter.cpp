@@ -11,12 +11,20 @@ constexpr std::string_view shade = R"glsl(
 uniform sampler2D positions, normals, visibility, truth, difference_colors;
 uniform vec3 light;  // the light's centre
 uniform int kind;    // Picture
+uniform highp usampler2D tile_classes;
+uniform int tile_size;  // 0: tiles are not shown
 uniform float split, difference_scale;
 layout(location = 0) out vec4 color;
 
 vec3 encoded(vec3 linear) {
     vec3 low = 12.92 * linear, high = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
     return mix(high, low, lessThan(linear, vec3(0.0031308)));
+}
+
+vec3 tile_color(ivec2 at) {
+    if (tile_size == 0) return vec3(1.0);
+    uint tile = texelFetch(tile_classes, at / tile_size, 0).r;
+    return tile == 0u ? vec3(0.6, 0.8, 0.6) : tile == 1u ? vec3(1.0, 0.9, 0.35) : vec3(1.0, 0.4, 0.35);
 }
 
 void main() {
@@ -41,7 +49,7 @@ void main() {
     vec3 base = normal.w > 0.5 ? vec3(0.75, 0.62, 0.45) : vec3(0.7);
     vec3 linear = kind == 1 ? vec3(is_asked ? visible : 0.0)
                             : is_surface ? base * (0.06 + 0.94 * lit) : background;
-    color.rgb = is_bar ? vec3(1.0) : encoded(linear);
+    color.rgb = is_bar ? vec3(1.0) : encoded(linear) * (is_asked ? tile_color(at) : vec3(1.0));
 }
 )glsl";
 
@@ -73,7 +81,8 @@ Presenter::Presenter()
       outline_(Source{{}, {outline_vertex}}, Source{{}, {outline_fragment}}),
       difference_colors_(colors_of_differences()) {}
 
-void Presenter::draw(const Renderer& frame, const Texture& truth, const scenes::Scene& scene, const Show& show) {
+void Presenter::draw(const Renderer& frame, const Texture& truth, const Texture* tiles, const scenes::Scene& scene,
+                     const Show& show) {
     if (picture_.empty() || picture_.size() != frame.size()) {
         picture_ = Texture(GL_RGBA8, frame.size());
         target_ = Framebuffer({{picture_}});
@@ -88,6 +97,9 @@ void Presenter::draw(const Renderer& frame, const Texture& truth, const scenes::
     shade_.set("difference_colors", 4, difference_colors_);
     shade_.set("light", scenes::center_of(scene.light));
     shade_.set("kind", static_cast<int>(show.picture));
+    shade_.set("tile_classes", 5);
+    shade_.set("tile_size", tiles != nullptr ? TileClasses::size : 0);
+    if (tiles != nullptr) tiles->bind(5);
     shade_.set("split", show.split);
     shade_.set("difference_scale", difference_scale);
     shade_.draw_full_screen();

@@ -25,8 +25,9 @@ class Presenter {
   public:
     Presenter();
 
-    /// `truth`: visibility as Renderer::visibility has it, R32F.
-    void draw(const Renderer& frame, const Texture& truth, const scenes::Scene& scene, const Show& show);
+    /// `truth`: visibility as Renderer::visibility has it, R32F. `tiles`: classes to be shown, if any.
+    void draw(const Renderer& frame, const Texture& truth, const Texture* tiles, const scenes::Scene& scene,
+              const Show& show);
     /// The picture in the window's framebuffer, stretched to it.
     void show_in_window(glm::ivec2 size) const;
     const Texture& picture() const { return picture_; }  ///< RGBA8, sRGB-encoded

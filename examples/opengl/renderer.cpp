@@ -71,7 +71,7 @@ glm::mat4 Renderer::world_to_clip(const scenes::Camera& camera) const {
     return project * to_eye;
 }
 
-void Renderer::draw(const scenes::Scene& scene, Method& method, Timers& timers) {
+void Renderer::draw(const scenes::Scene& scene, Method& method, TileClasses* tiles, Timers& timers) {
     const glm::mat4 world_to_clip = this->world_to_clip(scene.camera);
     {
         const Timers::Scope scope(timers, "surfaces");
@@ -92,10 +92,14 @@ void Renderer::draw(const scenes::Scene& scene, Method& method, Timers& timers) 
         geometry_.draw_ground();
         visibility_target_.clear_color(0, glm::vec4(-1.0F));
     }
-    method.draw(geometry_,
-                Frame{size(), positions_, depth_, visibility_, world_to_clip, receivers_, reverse_depth_,
-                      visibility_target_, normals_},
-                timers);
+    Frame frame{size(),         positions_,         depth_,  visibility_, world_to_clip, receivers_,
+                reverse_depth_, visibility_target_, normals_};
+    if (tiles != nullptr) {
+        const Timers::Scope scope(timers, "tiles");
+        tiles->draw(frame);
+        frame.tiles = &tiles->classes();
+    }
+    method.draw(geometry_, frame, timers);
     if (reverse_depth_) glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 }
 

@@ -9,6 +9,7 @@
 #include "gl/texture.hpp"
 #include "gl/timers.hpp"
 #include "methods/method.hpp"
+#include "methods/tile_classes.hpp"
 
 namespace penumbra::opengl {
 
@@ -22,8 +23,8 @@ class Renderer {
     void resize(glm::ivec2 size);
     void set_scene(const scenes::Scene& scene);
 
-    /// The method must have been prepared for the scene.
-    void draw(const scenes::Scene& scene, Method& method, Timers& timers);
+    /// The method must have been prepared for the scene, and so must `tiles`, if there are any.
+    void draw(const scenes::Scene& scene, Method& method, TileClasses* tiles, Timers& timers);
 
     glm::ivec2 size() const { return positions_.size(); }
     const Geometry& geometry() const { return geometry_; }

@@ -75,13 +75,19 @@ void Viewer::set_method(const std::string& name) {
     if (!method_->takes(scene_.light)) set_light(scenes::as_kind(scene_.light, kind_for(*method_, scene_.light)));
 }
 
+std::vector<Knob> Viewer::knobs() {
+    std::vector<Knob> knobs = method_->knobs();
+    if (method_->tile_view()) knobs.push_back(choice_knob("tiles", tiles_, {"off", "on", "show"}));
+    return knobs;
+}
+
 void Viewer::knob_changed() { is_prepared_ = false; }
 
 void Viewer::set_knob(const std::string& setting) {
     const std::size_t equals = setting.find('=');
     const std::string name = setting.substr(0, equals);
     std::string names;
-    for (const Knob& knob : method_->knobs()) {
+    for (const Knob& knob : knobs()) {
         names += (names.empty() ? "" : ", ") + knob.name;
         if (knob.name != name || equals == std::string::npos) continue;
         knob.set(knob_value(knob, setting.substr(equals + 1)));
@@ -92,13 +98,16 @@ void Viewer::set_knob(const std::string& setting) {
 
 void Viewer::draw_frame() {
     timers_.next_frame();
-    if (!is_prepared_) method_->prepare(scene_, renderer_.geometry());
+    if (!is_prepared_) {
+        method_->prepare(scene_, renderer_.geometry());
+        if (has_tiles()) tile_classes_.prepare(scene_, *method_->tile_view());
+    }
     is_prepared_ = true;
-    renderer_.draw(scene_, *method_, timers_);
+    renderer_.draw(scene_, *method_, has_tiles() ? &tile_classes_ : nullptr, timers_);
     const bool needs_truth = show.picture == Picture::difference || show.split < 1.0F;
     if (needs_truth && traces && (truth_is_old_ || truth_size_ != renderer_.size())) restart_truth();
     show_truth();
-    presenter_.draw(renderer_, truth_image_, scene_, show);
+    presenter_.draw(renderer_, truth_image_, tiles_ == Tiles::show ? tiles() : nullptr, scene_, show);
 }
 
 void Viewer::restart_truth() {

@@ -26,10 +26,12 @@ class Viewer {
 
     const scenes::Scene& scene() const { return scene_; }
     const std::string& method_name() const { return method_name_; }
-    Method& method() { return *method_; }
+    const Method& method() const { return *method_; }
     Timers& timers() { return timers_; }
     const Renderer& renderer() const { return renderer_; }
     const Texture& picture() const { return presenter_.picture(); }
+    /// Classes of the latest frame's tiles, if its method was asked by tiles.
+    const Texture* tiles() const { return has_tiles() ? &tile_classes_.classes() : nullptr; }
     int truth_rays() const { return truth_.rays(); }
 
     // what can change; each takes effect with the next frame
@@ -38,6 +40,8 @@ class Viewer {
     void set_camera(const scenes::Camera& camera);
     void set_method(
         const std::string& name);  ///< a method that is not for the light makes the light one that it is for
+    /// The method's, and what tiles are for: "show" colours them by their classes.
+    std::vector<Knob> knobs();
     void knob_changed();
     /// "name=value", the value a number or a name. Throws std::runtime_error with a message for the user.
     void set_knob(const std::string& setting);
@@ -62,6 +66,9 @@ class Viewer {
     std::vector<float> by_rays(int rays);  ///< waits
 
   private:
+    enum class Tiles { off, on, show };
+
+    bool has_tiles() const { return tiles_ != Tiles::off && method_->tile_view().has_value(); }
     void restart_truth();
     void show_truth();
 
@@ -69,6 +76,8 @@ class Viewer {
     scenes::Scene scene_;
     std::string method_name_;
     std::unique_ptr<Method> method_;
+    Tiles tiles_ = Tiles::off;
+    TileClasses tile_classes_;
     Renderer renderer_;
     Presenter presenter_;
     Timers timers_;

@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../scenes/scene.hpp"
 #include "measure.hpp"
+#include "plans.hpp"
 #include "report.hpp"
 #include "scaling.hpp"
-#include "../scenes/scene.hpp"
 #include "settings.hpp"
 
 namespace {
@@ -36,7 +37,9 @@ struct Arguments {
     std::string mesh, light, out = "out/study";
     std::vector<double> sizes = {1.0};
     std::size_t points = 0;
-    bool quick = false, scaling = false;
+    bool quick = false, scaling = false, plans = false;
+    double tolerance = 0.02;
+    int lines = 1080;
 };
 
 std::vector<Scene> wanted_scenes(const Arguments& arguments) {
@@ -65,7 +68,23 @@ Effort effort_for(Subject subject, const Arguments& arguments) {
     return effort;
 }
 
+int run_plans(const Arguments& arguments, const std::string& command) {
+    const std::filesystem::path folder = arguments.out;
+    std::filesystem::create_directories(folder);
+    std::vector<PlanRow> rows;
+    for (const Scene& scene : wanted_scenes(arguments))
+        for (PlanRow& row : measure_plans(scene, arguments.tolerance, arguments.lines, folder)) rows.push_back(std::move(row));
+    write_plans(rows,
+                {{"command", command},
+                 {"machine", processor()},
+                 {"compiler", PENUMBRA_STUDY_COMPILER},
+                 {"flags", PENUMBRA_STUDY_FLAGS}},
+                folder);
+    return 0;
+}
+
 int run(const Arguments& arguments, const std::string& command) {
+    if (arguments.plans) return run_plans(arguments, command);
     Study study;
     study.command = command;
     study.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
@@ -115,6 +134,13 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember(method_names()));
     app.add_flag("--scaling", arguments.scaling,
                  "cost against spheres, triangles, resolutions and samples; no scenes unless they are named");
+    app.add_flag("--plans", arguments.plans, "methods as planned for a tolerance beside all their effects");
+    app.add_option("--tolerance", arguments.tolerance, "of visibility, for --plans")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    app.add_option("--lines", arguments.lines, "of the picture of 16 : 9 whose points --plans asks for")
+        ->check(CLI::Range(9, 4320))
+        ->capture_default_str();
     app.add_option("--points", arguments.points, "points to measure errors at, at most those that the camera sees")
         ->check(CLI::Range(1, 10000000));
     app.add_flag("--quick", arguments.quick, "fewer settings, points and rays: about a tenth of the time");

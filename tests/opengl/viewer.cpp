@@ -51,7 +51,7 @@ TEST_CASE("knobs, lights, scenes, sizes and pictures at random leave no error") 
             viewer.set_scene(empty);
         }
         if (frame % 100 == 70) viewer.set_scene(small_scene());
-        const std::vector<opengl::Knob> knobs = viewer.method().knobs();
+        const std::vector<opengl::Knob> knobs = viewer.knobs();
         const opengl::Knob& knob = knobs[pick(knobs.size())];
         // large images are as good as small ones, and slower
         const double most = knob.name == "resolution" ? 200.0 : knob.most, least = std::min(knob.least, most);

@@ -20,6 +20,8 @@ Layout layout_of(GLenum format) {
             return {GL_RED, GL_FLOAT};
         case GL_RG32F:
             return {GL_RG, GL_FLOAT};
+        case GL_R8UI:
+            return {GL_RED_INTEGER, GL_UNSIGNED_BYTE};
         case GL_R32UI:
             return {GL_RED_INTEGER, GL_UNSIGNED_INT};
         case GL_RG32UI:

@@ -35,8 +35,8 @@ class Handle {
 class Texture {
   public:
     Texture() = default;
-    /// GL_R8, R16F, R32F, RG32F, R32UI, RG32UI, RGBA8, RGBA16F, RGBA32F, RGBA32UI, or DEPTH_COMPONENT32F. Contents
-    /// are undefined.
+    /// GL_R8, R16F, R32F, RG32F, R8UI, R32UI, RG32UI, RGBA8, RGBA16F, RGBA32F, RGBA32UI, or DEPTH_COMPONENT32F.
+    /// Contents are undefined.
     Texture(GLenum format, glm::ivec2 size);
     static Texture array(GLenum format, glm::ivec2 size, int layers, int levels = 1);
     /// RGBA32F or RGBA8 from texels, row 0 first.

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "tile_classes.hpp"
+
 namespace penumbra::opengl {
 namespace {
 
@@ -27,6 +29,14 @@ std::unique_ptr<Method> make_method(const std::string& name, const Capabilities&
     for (const Named& method : methods)
         if (name == method.name) return method.make(capabilities);
     throw std::runtime_error("there is no method '" + name + "'");
+}
+
+void tell_points(const Program& program, const Frame& frame) {
+    constexpr int unit = 8;  // also where there are no tiles: samplers of two types may not have the same
+    program.set("positions", 0, frame.positions);
+    program.set("tile_classes", unit);
+    program.set("tile_size", frame.tiles != nullptr ? TileClasses::size : 0);
+    if (frame.tiles != nullptr) frame.tiles->bind(unit);
 }
 
 }  // namespace penumbra::opengl

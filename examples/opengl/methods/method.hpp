@@ -5,7 +5,9 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <penumbra/geometry.hpp>
+#include <penumbra/plan/extents.hpp>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,8 @@ struct Frame {
     bool reverse_depth;         ///< near is 1 and far 0, else near 0 and far 1
     const Framebuffer& target;  ///< draws to `visibility` alone
     const Texture& normals;     ///< RGBA16F: world space, of the triangles, towards the eye
+    /// Classes of tiles, if there are any: where all is lit, nothing is asked.
+    const Texture* tiles = nullptr;
 };
 
 using Query = std::function<void(const Vec3<float>* points, std::size_t count, float* visible)>;
@@ -47,6 +51,14 @@ Query query_of(const Arguments&... arguments) {
         shadow->visibility(points, count, visible);
     };
 }
+
+/// What tiles are judged by: the light in its frame, and by how much a method's images widen casters.
+struct TileView {
+    LightFrame<float> frame;
+    LightExtent<float> light;
+    float texel = 0.0F, texel_slope = 0.0F;  ///< a texel's width on the light's plane, and more for each unit of depth
+    float thickness = 0.0F;                  ///< of slices
+};
 
 /// One of the library's methods by its shaders. Knobs are the options of the C++ class where it has them, so that
 /// `by_cpp` answers the same question.
@@ -62,6 +74,9 @@ class Method {
     virtual std::vector<Knob> knobs() = 0;
     /// The scene, its light or a knob has changed. What only the host can do is done here. `takes` the light.
     virtual void prepare(const scenes::Scene& scene, const Geometry& geometry) = 0;
+    /// Nothing where tiles spare nothing, or the method answers otherwise than 1 where nothing is before the light.
+    /// What is in it is that of the latest prepare().
+    virtual std::optional<TileView> tile_view() const { return std::nullopt; }
     /// All passes of a frame, those that depend on the light alone included.
     virtual void draw(const Geometry& geometry, const Frame& frame, Timers& timers) = 0;
     /// Visibility of the same scene by the C++ with the same knobs.
@@ -81,11 +96,19 @@ std::vector<std::string> method_names();
 std::unique_ptr<Method> make_method(const std::string& name, const Capabilities& capabilities);
 
 /// What shading passes begin with. `penumbra_point()` is the world-space point of the fragment's pixel, its w 1 where
-/// visibility is asked; visibility goes to `visible`.
+/// visibility is asked; visibility goes to `visible`, and is 1 where `penumbra_is_lit()` says so. See tell_points().
 inline constexpr std::string_view shading_head = R"glsl(
 uniform highp sampler2D positions;
+uniform highp usampler2D tile_classes;
+uniform int tile_size;  // 0: there are none
 layout(location = 0) out float visible;
 vec4 penumbra_point() { return texelFetch(positions, ivec2(gl_FragCoord.xy), 0); }
+bool penumbra_is_lit() {
+    return tile_size > 0 && texelFetch(tile_classes, ivec2(gl_FragCoord.xy) / tile_size, 0).r == 0u;
+}
 )glsl";
+
+/// To a program in use that begins so. Takes texture units 0 and 8.
+void tell_points(const Program& program, const Frame& frame);
 
 }  // namespace penumbra::opengl

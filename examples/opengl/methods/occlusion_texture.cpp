@@ -8,6 +8,7 @@
 //   resolve    fills solids, full-screen passes; the same
 //   prefilter  makes tables, N-Buffers or mip-maps, full-screen or compute passes; slice_filter.cpp
 //   shade      calls penumbra_visibility(), below: what an engine's own shading calls for each light
+#include <algorithm>
 #include <memory>
 #include <penumbra/occlusion_texture/shadow.hpp>
 #include <tuple>
@@ -33,7 +34,7 @@ uniform penumbra_LightFrame frame;
 void main() {
     vec4 point = penumbra_point();
     if (point.w == 0.0) discard;
-    visible = penumbra_visibility(masks, depths, slices, penumbra_to_light(frame, point.xyz));
+    visible = penumbra_is_lit() ? 1.0 : penumbra_visibility(masks, depths, slices, penumbra_to_light(frame, point.xyz));
 }
 )glsl";
 
@@ -50,6 +51,7 @@ class OcclusionTexture final : public Method {
     bool takes(const scenes::Light& light) const override { return std::holds_alternative<RectLight<float>>(light); }
     std::vector<Knob> knobs() override;
     void prepare(const scenes::Scene& scene, const Geometry&) override;
+    std::optional<TileView> tile_view() const override;
     void draw(const Geometry& geometry, const Frame& frame, Timers& timers) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
@@ -113,6 +115,14 @@ void OcclusionTexture::prepare(const scenes::Scene& scene, const Geometry&) {
          {shading_head, shading_options, library("light.glsl"), library("occlusion_texture/shadow.glsl"), shading}});
 }
 
+/// Mip-maps blur further than two texels.
+std::optional<TileView> OcclusionTexture::tile_view() const {
+    if (options_.filter == SliceFilter::mipmap) return std::nullopt;
+    const float texel = 1.0F / std::min(view_.camera.scale_tx.x, view_.camera.scale_tx.y);
+    return TileView{
+        view_.frame, {view_.half_size, false}, texel, texel * view_.camera.convergence, view_.range.thickness};
+}
+
 /// An engine makes them once, for the largest image that it allows, and draws to a part.
 void OcclusionTexture::make_textures() {
     const int groups = (options_.slices + 3) / 4;
@@ -147,7 +157,7 @@ void OcclusionTexture::shade(const Frame& frame) const {
     State{}.set();
     frame.target.bind();
     shade_->use();
-    shade_->set("positions", 0, frame.positions);
+    tell_points(*shade_, frame);
     shade_->set("masks", 1, filter_.filtered(0));
     shade_->set("depths", 2, filter_.filtered(has_depths() ? 1 : 0));
     shade_->set("self_shadow_bias", options_.self_shadow_bias);

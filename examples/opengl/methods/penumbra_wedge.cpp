@@ -25,7 +25,7 @@ uniform penumbra_LightFrame light;
 void main() {
     vec4 point = penumbra_point();
     if (point.w == 0.0) discard;
-    visible = penumbra_visibility(wedges, shadow, penumbra_to_light(light, point.xyz));
+    visible = penumbra_is_lit() ? 1.0 : penumbra_visibility(wedges, shadow, penumbra_to_light(light, point.xyz));
 }
 )glsl";
 
@@ -103,6 +103,7 @@ class PenumbraWedge final : public Method {
     bool takes(const scenes::Light& light) const override { return std::holds_alternative<RectLight<float>>(light); }
     std::vector<Knob> knobs() override;
     void prepare(const scenes::Scene& scene, const Geometry&) override;
+    std::optional<TileView> tile_view() const override;
     void draw(const Geometry&, const Frame& frame, Timers& timers) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
@@ -184,6 +185,12 @@ void PenumbraWedge::prepare(const scenes::Scene& scene, const Geometry&) {
     index_.texels = {};
     placed_for_ = empty_box<float>();
     make_programs();
+}
+
+/// What is rasterised costs the same, whatever is asked then.
+std::optional<TileView> PenumbraWedge::tile_view() const {
+    if (!is_index()) return std::nullopt;
+    return TileView{light_, {index_.half_size / index_.scale, false}};
 }
 
 void PenumbraWedge::make_programs() {
@@ -333,7 +340,7 @@ void PenumbraWedge::shade(const Frame& frame) const {
     State().set();
     frame.target.bind();
     shade_.use();
-    shade_.set("positions", 0, frame.positions);
+    tell_points(shade_, frame);
     if (is_index()) {
         shade_.set("wedges", 1, wedges_);
         shade_.set("light", light_);

@@ -25,7 +25,9 @@ uniform int count;
 void main() {
     vec4 point = penumbra_point();
     if (point.w == 0.0) discard;
-    visible = penumbra_visibility(maps, edges, view, count, penumbra_to_light(light, point.xyz));
+    visible = penumbra_is_lit()
+                  ? 1.0
+                  : penumbra_visibility(maps, edges, view, count, penumbra_to_light(light, point.xyz));
 }
 )glsl";
 
@@ -37,7 +39,9 @@ uniform float half_length;
 void main() {
     vec4 point = penumbra_point();
     if (point.w == 0.0) discard;
-    visible = penumbra_visibility(segments, view, -half_length, half_length, penumbra_to_light(light, point.xyz));
+    visible = penumbra_is_lit()
+                  ? 1.0
+                  : penumbra_visibility(segments, view, -half_length, half_length, penumbra_to_light(light, point.xyz));
 }
 )glsl";
 
@@ -46,6 +50,7 @@ class SoftShadowMapMethod final : public Method {
     bool takes(const scenes::Light& light) const override { return std::holds_alternative<LinearLight<float>>(light); }
     std::vector<Knob> knobs() override;
     void prepare(const scenes::Scene& scene, const Geometry&) override;
+    std::optional<TileView> tile_view() const override;
     void draw(const Geometry& geometry, const Frame& frame, Timers& timers) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
@@ -140,6 +145,13 @@ void SoftShadowMapMethod::prepare(const scenes::Scene& scene, const Geometry&) {
     }
     make_programs();
     make_textures();
+}
+
+std::optional<TileView> SoftShadowMapMethod::tile_view() const {
+    const Vec2<float> seen = extent(scene_.view.slopes);
+    const float texel =
+        scene_.view.empty() ? 0.0F : std::max(seen.x, seen.y) / static_cast<float>(scene_.view.resolution);
+    return TileView{scene_.frame, {Vec2<float>(scene_.half_length, 0.0F), false}, 0.0F, texel};
 }
 
 void SoftShadowMapMethod::make_programs() {
@@ -303,7 +315,7 @@ void SoftShadowMapMethod::shade(const Frame& frame) const {
     State{}.set();
     frame.target.bind();
     shade_.use();
-    shade_.set("positions", 0, frame.positions);
+    tell_points(shade_, frame);
     if (has_segments()) {
         shade_.set("segments", 1, segments_);
         shade_.set("half_length", scene_.half_length);

@@ -27,7 +27,9 @@ uniform penumbra_DBufferView view;
 void main() {
     vec4 point = penumbra_point();
     if (point.w == 0.0) discard;
-    visible = penumbra_visibility(crossings, edges, view, radius, penumbra_to_light(light, point.xyz));
+    visible = penumbra_is_lit()
+                  ? 1.0
+                  : penumbra_visibility(crossings, edges, view, radius, penumbra_to_light(light, point.xyz));
 }
 )glsl";
 
@@ -96,6 +98,7 @@ class UmbraVolumeMethod final : public Method {
     bool takes(const scenes::Light& light) const override { return std::holds_alternative<DiskLight<float>>(light); }
     std::vector<Knob> knobs() override;
     void prepare(const scenes::Scene& scene, const Geometry&) override;
+    std::optional<TileView> tile_view() const override;
     void draw(const Geometry&, const Frame& frame, Timers& timers) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
@@ -155,6 +158,12 @@ void UmbraVolumeMethod::prepare(const scenes::Scene& scene, const Geometry&) {
     edges_ = Texture(hiding_edge_texels(geometry.edges));
     make_programs();
     make_textures();
+}
+
+std::optional<TileView> UmbraVolumeMethod::tile_view() const {
+    const Vec2<float> seen = extent(view_.slopes);
+    const float texel = has_casters_ ? std::max(seen.x, seen.y) / static_cast<float>(view_.resolution) : 0.0F;
+    return TileView{frame_, {Vec2<float>(radius_), true}, 0.0F, texel};
 }
 
 void UmbraVolumeMethod::make_programs() {
@@ -236,7 +245,7 @@ void UmbraVolumeMethod::draw(const Geometry&, const Frame& frame, Timers& timers
     State{}.set();
     frame.target.bind();
     shade_.use();
-    shade_.set("positions", 0, frame.positions);
+    tell_points(shade_, frame);
     shade_.set("crossings", 1, crossings_);
     shade_.set("edges", 2, edges_);
     shade_.set("light", frame_);

@@ -51,7 +51,7 @@ void edit_light(Viewer& viewer) {
 }
 
 void turn_knobs(Viewer& viewer) {
-    for (const Knob& knob : viewer.method().knobs()) {
+    for (const Knob& knob : viewer.knobs()) {
         const double before = knob.get();
         double after = before;
         if (!knob.names.empty()) {

@@ -112,7 +112,7 @@ class Exercise {
         if (frame % 16 == 9) glfwIconifyWindow(window);
         if (frame % 16 == 11) glfwRestoreWindow(window);
         if (frame % 8 == 1) {
-            const std::vector<Knob> knobs = viewer.method().knobs();
+            const std::vector<Knob> knobs = viewer.knobs();
             const Knob& knob = knobs[random_() % knobs.size()];
             if (!knob.names.empty()) knob.set(static_cast<double>(random_() % knob.names.size()));
             viewer.knob_changed();
