@@ -189,8 +189,8 @@ class OcclusionTextureShadow {
     Variation<T> variation(const Layers<Filter>& layers, const Box3<T>& box_ls, T most) const {
         const T cells = static_cast<T>(options_.light_cells);
         const Vec3<T> half = (box_ls.max - box_ls.min) * T(0.5), zero(T(0), T(0), T(0));
-        Vec3<T> largest = zero, total = zero;
-        bool lit = true;
+        Vec3<T> largest = zero, total = zero, whole = zero;
+        int touched = 0;
         for (const Layer<Filter>& layer : layers) {
             const T top = range_.top(layer.slice), bottom = range_.bottom(layer.slice);
             if (!(relative_depth(top, range_.thickness, box_ls.max.z) > T(0))) continue;
@@ -201,13 +201,15 @@ class OcclusionTextureShadow {
             if (!may_touch(reach, layer)) continue;
             if (!passed || !std::is_same_v<Filter, SummedArea<std::uint32_t>>) return Variation<T>::unknown();
             const Vec3<T> change = detail::kernel_variation(camera_, plane, box_ls, half_size_, cells);
-            lit = false;
-            largest = glm::max(largest, change), total += change;
-            if (glm::dot(largest, half) > most) return Variation<T>::unknown();
+            whole = detail::kernel_variation(camera_, plane, box_ls, half_size_, T(1));
+            largest = glm::max(largest, change), total += change, ++touched;
+            if (glm::dot(whole, half) > most) return Variation<T>::unknown();
         }
-        if (lit) return Variation<T>::all_lit();
+        if (touched == 0) return Variation<T>::all_lit();
         const Combination rule = options_.blend.combination;
-        const Vec3<T> change = rule == Combination::max    ? largest
+        // of one slice, the mean over all cells is that over the whole kernel
+        const Vec3<T> change = touched == 1                ? whole
+                               : rule == Combination::max  ? largest
                                : rule == Combination::mean ? (largest + total) * T(0.5)
                                                            : total;
         if (glm::dot(change, half) > most) return Variation<T>::unknown();

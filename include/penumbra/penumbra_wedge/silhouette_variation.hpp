@@ -33,7 +33,9 @@ class SweptArea {
 
     bool begin_piece(const Box3<T>& box, bool simple) {
         simple_ = simple;
-        const Rect2<T> rect = intersect(project_box(box, tile_.box), tile_.light);
+        // where masks may be asked for, IntervalBlender's rectangles overlap: these hold those
+        const bool beyond = box.max.z >= tile_.box.min.z;
+        const Rect2<T> rect = beyond ? tile_.light : intersect(project_box(box, tile_.box), tile_.light);
         for (std::size_t k = 0; k < pieces_ && !overlaps_; ++k) overlaps_ = !is_apart(rect, seen_[k]);
         overlaps_ = overlaps_ || pieces_ == seen_.size();
         if (!overlaps_) seen_[pieces_] = rect;

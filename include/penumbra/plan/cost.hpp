@@ -120,7 +120,7 @@ double time_of(const Shadow& shadow, const std::vector<Vec3<typename Shadow::Rea
         const auto start = Clock::now();
         std::size_t batches = 0;
         double ns = 0.0;
-        while (ns < 2e6 && batches < 64) {
+        while (ns < 1e6 && batches < 64) {
             shadow.visibility(points.data(), points.size(), result.data());
             ++batches;
             ns = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
@@ -155,9 +155,9 @@ CostTable measure_costs() {
     const DiskLight<T> disk{above, Vec3<T>(T(0), T(-1), T(0)), T(0.5)};
     const LinearLight<T> line{above - along, above + along};
     UmbraVolumeOptions d_buffer;
-    d_buffer.mode = DiskMode::d_buffer, d_buffer.resolution = 256;
+    d_buffer.mode = DiskMode::d_buffer, d_buffer.resolution = 128;
     SoftShadowMapOptions intervals, skins;
-    intervals.resolution = skins.resolution = 256;
+    intervals.resolution = skins.resolution = 128;
     skins.mode = LinearMode::skins;
     OcclusionTextureOptions slices;
     slices.resolution = 256;

@@ -30,7 +30,8 @@ Box3<T> shadow_box(const Box3<T>& caster_ls, const Box3<T>& receivers_ls, const 
     // from E at depth z, seen past the light's far side: (E + h) p / z − h, for p / z from 1 up
     constexpr T far = T(1e9);
     const T most = near * far > deepest ? deepest / near : far;
-    const T shallow = box.min.z > caster_ls.max.z ? box.min.z / caster_ls.max.z : T(1);
+    const T nearest = caster_ls.max.z * far > box.min.z ? box.min.z / caster_ls.max.z : far;
+    const T shallow = nearest > T(1) ? nearest : T(1);
     for (int k = 0; k < 2; ++k) {
         const T h = half_size[k], high = caster_ls.max[k] + h, low = caster_ls.min[k] - h;
         const T right = high * (high > T(0) ? most : shallow) - h, left = low * (low < T(0) ? most : shallow) + h;
@@ -56,11 +57,33 @@ T light_share(const Rect2<T>& covered, const LightExtent<T>& light) {
     return saturate(light.disk ? share * of_square : share);
 }
 
+/// The largest share of a light that a caster of this size covers, seen from any one of the receivers, wherever it
+/// appears; in [0, 1]. Each face of its box at depth z appears p / (p − z) times as large; of two, what is on the light
+/// of one lies that much beside the other. All receivers lie beyond it, else 1.
+template <class T>
+T size_limit(const Box3<T>& caster_ls, const Box3<T>& receivers_ls, const LightExtent<T>& light) {
+    const T near = caster_ls.min.z, p = receivers_ls.min.z, room = p - caster_ls.max.z;
+    constexpr T far = T(1e6);
+    if (!(near > T(0)) || !(room * far > p)) return T(1);
+    const T larger = p / room, deeper = (caster_ls.max.z - near) / near;
+    T share = T(1);
+    for (int k = 0; k < 2; ++k) {
+        const T h = light.half_size[k], low = caster_ls.min[k], high = caster_ls.max[k];
+        const T reach = h + (-low > high ? -low : high), width = ((high - low) + reach * deeper) * larger;
+        share *= h > T(0) ? saturated_ratio(width, T(2) * h) : T(1);
+    }
+    constexpr T of_square = T(4) / pi<T>;
+    return saturate(light.disk ? share * of_square : share);
+}
+
 /// The largest share of the light that a caster hides from any of the receivers, in [0, 1].
 template <class T>
 T occlusion_limit(const Box3<T>& caster_ls, const Box3<T>& receivers_ls, const LightExtent<T>& light) {
     const Box3<T> within = shadow_box(caster_ls, receivers_ls, light.half_size);
-    return is_empty(within) ? T(0) : light_share(project_box(caster_ls, within), light);
+    if (is_empty(within)) return T(0);
+    const T by_place = light_share(project_box(caster_ls, within), light);
+    const T by_size = size_limit(caster_ls, within, light);
+    return by_place < by_size ? by_place : by_size;
 }
 
 /// The largest share of the light that two casters both hide from any of the receivers, in [0, 1]: 0 unless their
@@ -69,7 +92,11 @@ template <class T>
 T overlap_limit(const Box3<T>& a_ls, const Box3<T>& b_ls, const Box3<T>& receivers_ls, const LightExtent<T>& light) {
     const Box3<T> of_a = shadow_box(a_ls, receivers_ls, light.half_size);
     const Box3<T> both = is_empty(of_a) ? of_a : shadow_box(b_ls, of_a, light.half_size);
-    return is_empty(both) ? T(0) : light_share(intersect(project_box(a_ls, both), project_box(b_ls, both)), light);
+    if (is_empty(both)) return T(0);
+    const T by_place = light_share(intersect(project_box(a_ls, both), project_box(b_ls, both)), light);
+    const T size_a = size_limit(a_ls, both, light), size_b = size_limit(b_ls, both, light);
+    const T by_size = size_a < size_b ? size_a : size_b;
+    return by_place < by_size ? by_place : by_size;
 }
 
 /// The widest penumbra that a caster casts on the receivers, world units; 0 if it casts none there, at most 1e9 light

@@ -79,7 +79,7 @@ class Planner {
         plan_.options = settings.full, plan_.light = light, plan_.tolerance = tolerance;
     }
 
-    /// The plan for the tolerance: half of it for what is left out everywhere, half for what points and tiles decide.
+    /// The plan for the tolerance: up to half of it for what is left out everywhere, the rest for points and tiles.
     Plan<Shadow> make() {
         const Plan<Shadow>* const before = settings_.previous;
         return make([&](std::vector<Candidate<T>>& candidates) {
@@ -105,7 +105,7 @@ class Planner {
                 {candidate.effect, !candidate.out, candidate.loss, T(0), candidate.reason, candidate.number});
             if (candidate.out) leave_out(candidate);
         }
-        decide_at_points(budget());
+        decide_at_points();
         std::stable_sort(plan_.decisions.begin(), plan_.decisions.end(),
                          [](const auto& a, const auto& b) { return a.effect < b.effect; });
         return std::move(plan_);
@@ -162,13 +162,13 @@ class Planner {
         detail::leave_out(candidate.effect, plan_.options);
     }
 
-    void decide_at_points(T budget) {
-        T left = budget;
+    /// What is left of the tolerance is lost at a point either because masks are left out there or because a neighbour
+    /// answers for it, which it does only where nothing overlaps.
+    void decide_at_points() {
+        const T left = std::max(plan_.tolerance - plan_.bound, T(0));
         if constexpr (std::is_same_v<Shadow, PenumbraWedgeShadow<T>> || std::is_same_v<Shadow, UmbraVolumeShadow<T>>) {
             if (decides_at_points(plan_.options)) {
-                left = budget * T(0.5);
-                plan_.options.tolerance = std::max(plan_.options.tolerance, static_cast<float>(left));
-                plan_.bound += left;
+                plan_.options.tolerance = std::max(plan_.options.tolerance, static_cast<float>(std::min(left, T(1))));
                 for (auto& decision : plan_.decisions)
                     if (decision.effect == Effect::overlap) decision.share = left;
             }

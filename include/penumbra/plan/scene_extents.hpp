@@ -42,7 +42,7 @@ struct SceneExtents {
                 for (std::size_t k = 0; k < near.size(); ++k) {
                     const Box3<T> both{glm::max(shadows[k].min, shadow.min), glm::min(shadows[k].max, shadow.max)};
                     if (is_empty(both)) continue;
-                    const T share = light_share(intersect(project_box(near[k], both), project_box(c, both)), light);
+                    const T share = overlap_limit(near[k], c, both, light);
                     pairs += share > T(0) ? 1 : 0;
                     sum += share;
                     if (sum > T(0.5)) return T(1);
