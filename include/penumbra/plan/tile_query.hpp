@@ -57,7 +57,8 @@ class TileQuery {
   private:
     static constexpr std::size_t most = 1024, tile = 64, parts = 4;
     static constexpr std::uint16_t none = 0xffff;
-    T worth_sharing = T(12);  ///< in tolerances, from a box's middle to its corners
+    static constexpr T smallest = T(1e-30);  ///< what extents are taken for that are none
+    T worth_sharing = T(12);                 ///< in tolerances, from a box's middle to its corners
 
     void ask_all(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers) const {
         shadow_.visibility(points, count, result);
@@ -91,17 +92,33 @@ class TileQuery {
         return queries_;
     }
 
+    /// Four points at a time, coordinate by coordinate, so that it vectorises. Not finite if any point is not.
     Box3<T> box_of(std::size_t first, std::size_t count) const {
-        Box3<T> box = {points_[first], points_[first]};
-        T all = T(0);  // not finite if any is not, whatever min and max make of it
-        for (std::size_t i = first; i < first + count; ++i) {
-            const Vec3<T>& p = points_[i];
-            box.min = Vec3<T>(p.x < box.min.x ? p.x : box.min.x, p.y < box.min.y ? p.y : box.min.y,
-                              p.z < box.min.z ? p.z : box.min.z);
-            box.max = Vec3<T>(p.x > box.max.x ? p.x : box.max.x, p.y > box.max.y ? p.y : box.max.y,
-                              p.z > box.max.z ? p.z : box.max.z);
-            all += std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+        constexpr std::size_t lanes = 12;
+        const Vec3<T>* const points = points_ + first;
+        std::array<T, lanes> low, high, sum{};
+        for (std::size_t j = 0; j < lanes; ++j) low[j] = high[j] = points[0][static_cast<int>(j % 3)];
+        std::size_t i = 0;
+        for (; i + 4 <= count; i += 4) {
+            std::array<T, lanes> at;
+            for (std::size_t k = 0; k < 4; ++k)
+                at[3 * k] = points[i + k].x, at[3 * k + 1] = points[i + k].y, at[3 * k + 2] = points[i + k].z;
+            for (std::size_t j = 0; j < lanes; ++j) {
+                low[j] = at[j] < low[j] ? at[j] : low[j];
+                high[j] = at[j] > high[j] ? at[j] : high[j];
+                sum[j] += std::abs(at[j]);  // whatever min and max make of what is not finite
+            }
         }
+        Box3<T> box{points[0], points[0]};
+        T all = T(0);
+        const auto extend_by = [&](int axis, T least, T greatest, T size) {
+            box.min[axis] = least < box.min[axis] ? least : box.min[axis];
+            box.max[axis] = greatest > box.max[axis] ? greatest : box.max[axis];
+            all += size;
+        };
+        for (std::size_t j = 0; j < lanes; ++j) extend_by(static_cast<int>(j % 3), low[j], high[j], sum[j]);
+        for (; i < count; ++i)
+            for (int k = 0; k < 3; ++k) extend_by(k, points[i][k], points[i][k], std::abs(points[i][k]));
         if (!is_finite(all)) box.max.x = std::numeric_limits<T>::infinity();
         return box;
     }
@@ -127,6 +144,8 @@ class TileQuery {
         if (variation.known && variation.lit) {
             std::fill_n(result_ + first, count, T(1));
             tell(first, count, PointAnswer::lit);
+        } else if (variation.known && is_even(variation, box_ls)) {
+            for (std::size_t i = first; i < first + count; ++i) ask(i, first + count / 2);
         } else if (variation.known && count > 1) {
             share_answers(first, count, variation);
         } else if (tiles > 1) {
@@ -136,40 +155,60 @@ class TileQuery {
         }
     }
 
+    /// Whether any point of the box may answer for all.
+    bool is_even(const Variation<T>& variation, const Box3<T>& box_ls) const {
+        const Vec3<T> size = box_ls.max - box_ls.min;
+        const Vec2<T> d(std::abs(variation.direction.x), std::abs(variation.direction.y));
+        return variation.change(Vec3<T>(size.x * d.x + size.y * d.y, size.x * d.y + size.y * d.x, size.z)) <=
+               tolerance_;
+    }
+
     /// Puts the points into cells in which visibility changes by no more than the tolerance from the middle to a side,
     /// and asks for the one nearest to the middle; others answer with it if they may.
     void share_answers(std::size_t first, std::size_t count, const Variation<T>& variation) {
-        Box3<T> box = empty_box<T>();
+        const Vec2<T> d = variation.direction;
+        const Vec3<T> along = frame_.u * d.x + frame_.v * d.y, across = frame_.v * d.x - frame_.u * d.y;
+        std::array<T, parts * tile> x, y, z, away;
+        std::array<int, parts * tile> cell;
         for (std::size_t i = 0; i < count; ++i) {
-            turned_[i] = variation.turned(frame_.to_light(points_[first + i]));
-            box = extend(box, turned_[i]);
+            const Vec3<T> from = points_[first + i] - frame_.origin;
+            x[i] = from.x * along.x + from.y * along.y + from.z * along.z;
+            y[i] = from.x * across.x + from.y * across.y + from.z * across.z;
+            z[i] = from.x * frame_.normal.x + from.y * frame_.normal.y + from.z * frame_.normal.z;
         }
-        const Vec3<T> size = box.max - box.min, middle = (box.min + box.max) * T(0.5);
-        const T left = tolerance_ - variation.deep * size.z * T(0.5);
-        const auto cells_of = [&](T change) {
-            return static_cast<std::size_t>(clamp(change / std::max(left, T(1e-3) * tolerance_), T(0), T(15))) + 1;
+        const auto range = [&](const std::array<T, parts * tile>& values) {
+            T low = values[0], high = values[0];
+            for (std::size_t i = 0; i < count; ++i) {
+                low = values[i] < low ? values[i] : low;
+                high = values[i] > high ? values[i] : high;
+            }
+            return Vec2<T>(low, high);
         };
-        const std::size_t columns = cells_of(variation.along * size.x), rows = cells_of(variation.across * size.y);
+        const Vec2<T> in_x = range(x), in_y = range(y), in_z = range(z);
+        const T left = std::max(tolerance_ - variation.deep * (in_z.y - in_z.x) * T(0.5), T(1e-3) * tolerance_);
+        const auto cells_of = [&](T change) { return static_cast<int>(clamp(change / left, T(0), T(15))) + 1; };
+        const int columns = cells_of(variation.along * (in_x.y - in_x.x)),
+                  rows = cells_of(variation.across * (in_y.y - in_y.x));
+        const T width = std::max(in_x.y - in_x.x, smallest) / static_cast<T>(columns);
+        const T height = std::max(in_y.y - in_y.x, smallest) / static_cast<T>(rows);
+        const T per_width = T(1) / width, per_height = T(1) / height, middle_z = (in_z.x + in_z.y) * T(0.5);
+        for (std::size_t i = 0; i < count; ++i) {
+            const int column = std::min(static_cast<int>((x[i] - in_x.x) * per_width), columns - 1);
+            const int row = std::min(static_cast<int>((y[i] - in_y.x) * per_height), rows - 1);
+            cell[i] = row * columns + column;
+            const T from_x = x[i] - (in_x.x + width * (static_cast<T>(column) + T(0.5)));
+            const T from_y = y[i] - (in_y.x + height * (static_cast<T>(row) + T(0.5)));
+            away[i] = variation.change(Vec3<T>(from_x, from_y, z[i] - middle_z));
+        }
         std::array<std::uint16_t, 256> chosen;
-        std::array<T, 256> nearest;
-        chosen.fill(none), nearest.fill(std::numeric_limits<T>::max());
-        const auto cell_of = [](T at, T low, T extent, std::size_t cells) {
-            const T n = static_cast<T>(cells);
-            return static_cast<std::size_t>(clamp(saturated_ratio(at - low, extent) * n, T(0), n - T(0.5)));
-        };
-        std::array<std::uint8_t, parts * tile> cell;
+        std::fill_n(chosen.begin(), columns * rows, none);
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t x = cell_of(turned_[i].x, box.min.x, size.x, columns);
-            const std::size_t y = cell_of(turned_[i].y, box.min.y, size.y, rows), c = y * columns + x;
-            const Vec3<T> center(box.min.x + size.x * ((static_cast<T>(x) + T(0.5)) / static_cast<T>(columns)),
-                                 box.min.y + size.y * ((static_cast<T>(y) + T(0.5)) / static_cast<T>(rows)), middle.z);
-            cell[i] = static_cast<std::uint8_t>(c);
-            const T away = variation.change(turned_[i] - center);
-            if (away < nearest[c]) nearest[c] = away, chosen[c] = static_cast<std::uint16_t>(i);
+            std::uint16_t& one = chosen[static_cast<std::size_t>(cell[i])];
+            if (one == none || away[i] < away[one]) one = static_cast<std::uint16_t>(i);
         }
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t with = chosen[cell[i]];
-            const bool may = variation.change(turned_[i] - turned_[with]) <= tolerance_;
+            const std::size_t with = chosen[static_cast<std::size_t>(cell[i])];
+            const bool may = variation.change(Vec3<T>(x[i] - x[with], y[i] - y[with], z[i] - z[with])) <= tolerance_;
             ask(first + i, may ? first + with : first + i);
         }
     }
@@ -195,7 +234,6 @@ class TileQuery {
     T* result_ = nullptr;
     PointAnswer* answers_ = nullptr;
     std::array<Box3<T>, most / tile> boxes_;
-    std::array<Vec3<T>, parts * tile> turned_;
     std::array<std::uint16_t, most> asked_at_, answered_by_, queried_;  ///< of each point; of each query
     std::size_t queries_ = 0;
 };
