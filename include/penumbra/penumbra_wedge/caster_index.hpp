@@ -70,7 +70,9 @@ class CasterIndex {
     Variation<T> variation(const Box3<T>& box_ls, T light_area, T most) const {
         if (index_.empty()) return Variation<T>::all_lit();
         const T area = light_area * scale_ * scale_;
-        if (!(area >= half_size_.x * half_size_.y)) return Variation<T>::unknown();  // as small as T can tell apart
+        constexpr T least =
+            T(1024) * std::numeric_limits<T>::epsilon();  // of lights whose shadows are not all rounding
+        if (!(half_size_.x > least && half_size_.y > least)) return Variation<T>::unknown();
         Variation<T> result =
             silhouette_variation(index_, {box_ls.min * scale_, box_ls.max * scale_}, half_size_, area, most);
         result.along *= scale_, result.across *= scale_, result.deep *= scale_;

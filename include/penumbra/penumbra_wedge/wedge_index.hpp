@@ -78,8 +78,8 @@ class WedgeIndex {
 
     /// For all points of a tile's box: calls visitor.begin_piece(box, simple) for pieces that may reach into their
     /// pyramids, and visitor.edge(a, b, weight) for every edge there, and some beside, that may be on the silhouette
-    /// from any of them, `weight` being the most that it may count. Stops where the visitor answers false. Returns
-    /// whether it did not.
+    /// from any of them, `weight` being the most that it may count. Stops where the visitor answers false, and at a
+    /// face that the box may lie on both sides of. Returns whether it did not.
     template <class Visitor>
     bool visit_candidates(const PointTile<T>& tile, Visitor& visitor) const {
         const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
@@ -141,9 +141,7 @@ class WedgeIndex {
                T(4) * std::numeric_limits<T>::epsilon() * glm::dot(normal, way + half);
     }
     bool touches(const PointTile<T>& tile, const Box3<T>& box) const {
-        const Vec3<T> low = tile.box.min - tolerance_ * T(2), high = tile.box.max + tolerance_ * T(2);
-        return box.min.x <= high.x && box.max.x >= low.x && box.min.y <= high.y && box.max.y >= low.y &&
-               box.min.z <= high.z && box.max.z >= low.z;
+        return overlaps({tile.box.min - tolerance_ * T(2), tile.box.max + tolerance_ * T(2)}, box);
     }
 
     bool has_no_silhouette(const PointTile<T>& tile, const Node& node) const {
@@ -221,6 +219,10 @@ class WedgeIndex {
             lanes[i] = face.depth_max < tile.depth[i] ? value : T(0);
         }
     }
+    static bool overlaps(const Box3<T>& a, const Box3<T>& b) {
+        return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y &&
+               a.min.z <= b.max.z && a.max.z >= b.min.z;
+    }
     template <class Visitor>
     bool visit_candidates_of(const PointTile<T>& tile, const Node& node, Visitor& visitor) const {
         struct Range {
@@ -236,7 +238,9 @@ class WedgeIndex {
             const T middle = glm::dot(face.normal, tile.center - face.a);
             const T room = spread(tile, glm::abs(face.normal), glm::abs(tile.center - face.a));
             const bool away_all = middle + room<-tolerance_, away_none = middle - room> - tolerance_;
-            const bool front_all = middle - room > tolerance_;
+            const bool front_all = middle - room > tolerance_,
+                       one_side = away_all || (face.solid ? away_none : front_all);
+            if (!one_side && overlaps(tile.box, box_of(face))) return false;
             if (from_ == SilhouetteFrom::light_center) {
                 range = {face.from_light, face.from_light};
                 if (touches(tile, box_of(face)) && !away_all && !front_all)

@@ -1,7 +1,7 @@
 // What each method may leave out of a scene, and what is lost at most.
 //
-// A limit that holds for every effect that changes only how casters are seen: what they hide together. Boxes often say
-// more; each limit here says what it rests on.
+// What a caster hides is limited by its box; what a method that counts overlaps twice takes for it, by that times the
+// number of faces. Of methods by images no more is known than that nothing is lost where nothing is hidden.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +26,14 @@ template <class T>
 struct CandidateSearch {
     const std::vector<Mesh<T>>& casters;
     const SceneExtents<T>& extents;
-    T budget;  ///< losses above it need not be known any better
+    T budget;  ///< of what has a budget of its own
     std::vector<Candidate<T>> found;
 
     void add(Effect effect, T loss, const char* reason, T number) { found.push_back({effect, loss, reason, number}); }
-    /// An effect without which casters are seen wrongly: as wrong as that they are not seen at all.
-    void add_limited_by_occlusion(Effect effect) {
+    /// An effect of a method by images, without which they are as wrong as can be where there is a shadow.
+    void add_of_images(Effect effect) {
         const T total = extents.total_hidden();
-        add(effect, total, "casters together hide at most %s of the light from any receiver", total);
+        add(effect, total > T(0) ? T(1) : T(0), "casters together hide up to %s of the light from a receiver", total);
     }
 };
 
@@ -73,28 +73,31 @@ bool covers_once(const Mesh<T>& mesh) {
     return quad ? outwards && inwards : open == 0 && (outwards || inwards);
 }
 
+/// The most that a sum over edges takes a caster to hide: every face may cover the same part of the light.
+template <class T>
+T counted(const Mesh<T>& caster, T hidden) {
+    return hidden > T(0) && !covers_once(caster) ? saturate(hidden * static_cast<T>(caster.triangles.size())) : hidden;
+}
+
 /// By how much casters seen before each other, or before themselves, are counted twice at most.
 template <class T>
 void find_overlap(CandidateSearch<T>& search) {
-    std::size_t pairs = 0;
-    T loss = search.extents.total_overlap(pairs);
-    if (loss > T(0)) {
-        search.add(Effect::overlap, saturate(loss), "boxes of %s pairs of casters hide the light from the same point",
-                   static_cast<T>(pairs));
-        return;
-    }
-    std::size_t folded = 0;
-    for (std::size_t i = 0; i < search.casters.size() && loss <= search.budget; ++i) {
-        if (!(search.extents.hidden[i] > T(0)) || search.casters[i].triangles.size() == 1) continue;
-        if (covers_once(search.casters[i])) continue;
+    std::size_t pairs = 0, folded = 0;
+    const T apart = search.extents.total_overlap(pairs);
+    T loss = apart;
+    for (std::size_t i = 0; i < search.casters.size() && loss < T(1); ++i) {
+        if (!(search.extents.hidden[i] > T(0)) || covers_once(search.casters[i])) continue;
         ++folded;
-        loss += search.extents.hidden[i];
+        loss += counted(search.casters[i], search.extents.hidden[i]);
     }
-    if (folded > 0)
+    if (apart > T(0))
         search.add(Effect::overlap, saturate(loss),
-                   "no two casters hide the light from one point, but %s may hide it twice", static_cast<T>(folded));
+                   "%s pairs of casters may hide the same of the light from a receiver", static_cast<T>(pairs));
+    else if (folded > 0)
+        search.add(Effect::overlap, saturate(loss),
+                   "no two casters hide the same of the light, but %s may hide it twice", static_cast<T>(folded));
     else
-        search.add(Effect::overlap, T(0), "no two of %s casters hide the light from the same point",
+        search.add(Effect::overlap, T(0), "no two of %s casters hide the same of the light from any receiver",
                    static_cast<T>(search.casters.size()));
 }
 
@@ -103,7 +106,12 @@ void find_overlap(CandidateSearch<T>& search) {
 template <class T>
 void find_candidates(const PenumbraWedgeOptions& full, CandidateSearch<T>& search) {
     if (full.overlap == OverlapRule::bitmask) find_overlap(search);
-    if (full.silhouette == SilhouetteFrom::point) search.add_limited_by_occlusion(Effect::silhouettes_per_point);
+    if (full.silhouette == SilhouetteFrom::light_center) return;
+    T loss = T(0);
+    for (std::size_t i = 0; i < search.casters.size(); ++i)
+        loss += search.extents.hidden[i] * static_cast<T>(search.casters[i].triangles.size());
+    search.add(Effect::silhouettes_per_point, saturate(loss),
+               "casters together hide up to %s of the light from a receiver", search.extents.total_hidden());
 }
 inline void leave_out(Effect effect, PenumbraWedgeOptions& options) {
     if (effect == Effect::overlap) options.overlap = OverlapRule::additive;
@@ -119,8 +127,8 @@ void find_candidates(const UmbraVolumeOptions& full, CandidateSearch<T>& search)
         if (full.overlap == DiskOverlap::bitmask) find_overlap(search);
         return;
     }
-    if (full.layers == 2) search.add_limited_by_occlusion(Effect::second_layer);
-    if (full.silhouette == VolumeSilhouette::disk) search.add_limited_by_occlusion(Effect::volume_silhouette);
+    if (full.layers == 2) search.add_of_images(Effect::second_layer);
+    if (full.silhouette == VolumeSilhouette::disk) search.add_of_images(Effect::volume_silhouette);
 }
 inline void leave_out(Effect effect, UmbraVolumeOptions& options) {
     if (effect == Effect::overlap) options.overlap = DiskOverlap::additive;
@@ -134,20 +142,23 @@ inline bool decides_at_points(const UmbraVolumeOptions& options) {
 // --- soft shadow maps ---------------------------------------------------------------------------------------------
 
 template <class T>
+bool is_level(const Box3<T>& box) {
+    return box.max.z > T(0) && box.max.z - box.min.z <= T(1e-4) * box.max.z;
+}
+template <class T>
 void find_candidates(const SoftShadowMapOptions& full, CandidateSearch<T>& search) {
-    const T total = search.extents.total_hidden();
     if (full.most_samples > full.samples) {
-        const bool one =
-            search.casters.size() == 1 && search.casters[0].triangles.size() <= 2 && covers_once(search.casters[0]);
         const bool exact = full.mode == LinearMode::intervals || full.mode == LinearMode::interval_mask;
-        if (one && exact)
+        // parallel to the light, so that no texel holds much of its depth
+        const bool level = search.casters.size() == 1 && search.casters[0].triangles.size() <= 2 &&
+                           covers_once(search.casters[0]) && is_level(search.extents.casters[0]);
+        if (exact && level)
             search.add(Effect::extra_samples, T(0), "of %s flat convex caster two samples see all that it hides", T(1));
         else
-            search.add_limited_by_occlusion(Effect::extra_samples);
+            search.add_of_images(Effect::extra_samples);
     }
     if (full.mode == LinearMode::skins && full.transition != SkinTransition::linear)
-        search.add(Effect::exact_transition, total, "casters together hide at most %s of the light from any receiver",
-                   total);
+        search.add_of_images(Effect::exact_transition);
 }
 inline void leave_out(Effect effect, SoftShadowMapOptions& options) {
     if (effect == Effect::extra_samples) options.most_samples = 0, options.narrowest_gap = false;
@@ -205,7 +216,7 @@ class SliceCandidates {
         if (behind >= T(0))
             search_.add(Effect::self_shadow, T(0), "receivers lie at least %s behind what a slice may hold", behind);
         else
-            search_.add_limited_by_occlusion(Effect::self_shadow);
+            search_.add_of_images(Effect::self_shadow);
     }
     /// If all casters lie in one slice, a copy in the next is the same on another plane; in the last there is none.
     void find_leak_closing() {
@@ -215,7 +226,7 @@ class SliceCandidates {
             search_.add(Effect::leak_closing, has_copy ? moved_loss(plane(layer), plane(layer + 1)) : T(0),
                         "all casters lie in slice %s", static_cast<T>(layer));
         else
-            search_.add_limited_by_occlusion(Effect::leak_closing);
+            search_.add_of_images(Effect::leak_closing);
     }
     /// Fewer slices change nothing but the planes that casters are projected on, if each lies in one slice and those of
     /// different slices stay in different ones: the fewest of which that holds within the budget.
@@ -225,6 +236,7 @@ class SliceCandidates {
             const T loss = nearest_ >= coarse.passed_depth() ? loss_of(coarse) : T(1);
             if (loss > search_.budget) continue;
             search_.add(Effect::slices, loss, "%s hold all layers of casters, each in its own", static_cast<T>(count));
+            search_.found.back().has_own_budget = true;
             return;
         }
         search_.add(Effect::slices, T(1), "casters reach through slices: none of %s can be spared",

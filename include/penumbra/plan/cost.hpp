@@ -219,16 +219,16 @@ Plan<Shadow> plan_for_time(const std::vector<Mesh<typename Shadow::Real>>& caste
     if (!validate(settings.full) || !validate(light)) return {};
     const MethodCost& cost = cost_of(costs, settings.full);
     double ns = full_ns > 0.0 ? full_ns : cost.full;
-    const auto select = [&](std::vector<detail::Candidate<T>>& candidates) {
+    const auto select_effects = [&](const std::vector<detail::Candidate<T>*>& candidates) {
         std::vector<detail::Candidate<T>*> order;
         T lost = T(0);
-        for (detail::Candidate<T>& candidate : candidates) {
-            candidate.out = !(candidate.loss > T(0));
-            const double share = cost.share_without(candidate.effect);
-            if (candidate.out)
+        for (detail::Candidate<T>* const candidate : candidates) {
+            candidate->out = !(candidate->loss > T(0));
+            const double share = cost.share_without(candidate->effect);
+            if (candidate->out)
                 ns *= share;
-            else if (share < 1.0 && candidate.effect != Effect::casters && candidate.effect != Effect::penumbra)
-                order.push_back(&candidate);
+            else if (share < 1.0 && candidate->effect != Effect::penumbra)
+                order.push_back(candidate);
         }
         const auto price = [&](const detail::Candidate<T>& candidate) {
             return static_cast<double>(candidate.loss) / -std::log(cost.share_without(candidate.effect));
@@ -243,7 +243,11 @@ Plan<Shadow> plan_for_time(const std::vector<Mesh<typename Shadow::Real>>& caste
         }
         return lost;
     };
-    return detail::Planner<Shadow>(casters, light, receivers, T(0), settings).make(select);
+    const auto select_casters = [](const std::vector<detail::Candidate<T>*>& candidates) {
+        for (detail::Candidate<T>* const candidate : candidates) candidate->out = !(candidate->loss > T(0));
+        return T(0);
+    };
+    return detail::Planner<Shadow>(casters, light, receivers, T(0), settings).make(select_effects, select_casters);
 }
 
 }  // namespace penumbra

@@ -30,8 +30,7 @@ struct MethodChoice {
 
 namespace detail {
 
-/// The methods for one light: those that are exact but for what plans leave out, and those of which no more is known
-/// than that they are wrong by no more than what casters hide.
+/// The methods for one light: those that are exact but for what plans leave out, and those of which nothing is known.
 template <class T, class Light>
 class MethodFront {
   public:
@@ -49,7 +48,7 @@ class MethodFront {
         PlanSettings<Shadow> settings;
         settings.full = full, settings.casters_receive = casters_receive_;
         const double full_ns = predicted_full_ns(extents_, casters_, full, costs_);
-        const T other = is_exact ? T(0) : extents_.total_hidden();
+        const T other = is_exact || !(extents_.total_hidden() > T(0)) ? T(0) : T(1);
         for (const T tolerance : {T(0), T(0.001), T(0.002), T(0.005), T(0.01), T(0.02), T(0.05), T(0.1), T(0.2)}) {
             const Plan<Shadow> plan = plan_for<Shadow>(casters_, light_, receivers_, tolerance, settings);
             all_.push_back({method, tolerance, plan.bound + other, predicted_ns(plan, costs_, full_ns)});
@@ -80,9 +79,9 @@ class MethodFront {
 }  // namespace detail
 
 /// The ways to shade a scene that no other beats both in what is lost and in time, from the most exact to the fastest.
-/// What is lost is what plans say, from the same boxes. Of occlusion textures, D-buffers and skins no more is known
-/// before than that they are wrong by no more than casters hide; so they are chosen where casters hide little, or the
-/// tolerance is large. Times are predicted from costs.
+/// What is lost is what plans say, from the same boxes. Of occlusion textures, D-buffers and skins nothing is known
+/// before they are built but that they are right where there is no shadow: their bound is 1, and so they end a front,
+/// for those who look at pictures. Times are predicted from costs.
 template <class T>
 std::vector<MethodChoice<T>> method_front(const std::vector<Mesh<T>>& casters, const RectLight<T>& light,
                                           const std::vector<Mesh<T>>& receivers, const CostTable& costs,

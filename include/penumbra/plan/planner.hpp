@@ -47,21 +47,38 @@ LinearLight<T> point_like(const LinearLight<T>& light) {
     return {middle - half, middle + half};
 }
 
-/// Whether what a caster hides does not depend on which others there are: images are fitted to all of them.
+/// Whether what a caster hides does not depend on which others there are. Masks count what is new, in an order that
+/// depends on all; rectangles likewise; and images are fitted to all.
+inline bool are_separable(const PenumbraWedgeOptions& options) {
+    return options.overlap == OverlapRule::additive || options.overlap == OverlapRule::maximum ||
+           options.overlap == OverlapRule::product || options.overlap == OverlapRule::product_quadrants;
+}
+inline bool are_separable(const UmbraVolumeOptions& options) {
+    return options.mode == DiskMode::edge_sum && options.overlap != DiskOverlap::bitmask;
+}
+inline bool are_separable(const OcclusionTextureOptions&) { return false; }
+inline bool are_separable(const SoftShadowMapOptions&) { return false; }
+
+/// Texels a side, of methods by images; 0 of others.
+inline int image_size(const PenumbraWedgeOptions&) { return 0; }
+inline int image_size(const UmbraVolumeOptions& options) {
+    return options.mode == DiskMode::d_buffer ? options.resolution : 0;
+}
+inline int image_size(const OcclusionTextureOptions& options) { return options.resolution; }
+inline int image_size(const SoftShadowMapOptions& options) { return options.resolution; }
+
+/// Whether the light looks where it does whatever casters there are.
 template <class T>
-bool are_separable(const PenumbraWedgeShadow<T>*, const PenumbraWedgeOptions&) {
+bool has_own_frame(const RectLight<T>& light) {
+    const Vec2<T> half = half_size(light);
+    return half.x > T(0) && half.y > T(0);
+}
+template <class T>
+bool has_own_frame(const DiskLight<T>&) {
     return true;
 }
 template <class T>
-bool are_separable(const UmbraVolumeShadow<T>*, const UmbraVolumeOptions& options) {
-    return options.mode == DiskMode::edge_sum;
-}
-template <class T>
-bool are_separable(const OcclusionTextureShadow<T>*, const OcclusionTextureOptions&) {
-    return false;
-}
-template <class T>
-bool are_separable(const SoftShadowMap<T>*, const SoftShadowMapOptions&) {
+bool has_own_frame(const LinearLight<T>&) {
     return false;
 }
 
@@ -75,36 +92,41 @@ class Planner {
             const PlanSettings<Shadow>& settings)
         : casters_(casters),
           settings_(settings),
-          extents_(scene_extents(casters, light, receivers, settings.casters_receive)) {
+          extents_(scene_extents(casters, light, receivers, settings.casters_receive, image_size(settings.full))) {
         plan_.options = settings.full, plan_.light = light, plan_.tolerance = tolerance;
     }
 
-    /// The plan for the tolerance: up to half of it for what is left out everywhere, the rest for points and tiles.
+    /// The plan for the tolerance: up to an eighth each for slices and for other effects that are left out everywhere,
+    /// a quarter for casters, the rest for points and tiles. So what one kind takes does not bring another back.
     Plan<Shadow> make() {
         const Plan<Shadow>* const before = settings_.previous;
-        return make([&](std::vector<Candidate<T>>& candidates) {
-            return detail::select(candidates, budget(), before ? settings_.hysteresis : T(0), [&](const auto& one) {
-                if (!before) return true;
-                if (one.effect != Effect::casters) return !before->simulates(one.effect);
-                return !std::binary_search(before->casters.begin(), before->casters.end(), one.caster);
+        const T hysteresis = before ? settings_.hysteresis : T(0), tolerance = plan_.tolerance;
+        const auto select_effects = [&](const Pointers& candidates) {
+            return detail::select(candidates, tolerance * T(0.125), hysteresis,
+                                  [&](const auto& one) { return !before || !before->simulates(one.effect); });
+        };
+        const auto select_casters = [&](const Pointers& candidates) {
+            return detail::select(candidates, tolerance * T(0.25), hysteresis, [&](const auto& one) {
+                return !before || !std::binary_search(before->casters.begin(), before->casters.end(), one.caster);
             });
-        });
+        };
+        return make(select_effects, select_casters);
     }
-    /// The plan without what select(candidates) marks as out; it returns what that loses.
-    template <class Select>
-    Plan<Shadow> make(const Select& select) {
-        CandidateSearch<T> search{casters_, extents_, budget(), {}};
-        find_casters(search);
+    /// The plan without what both mark as out; each returns what that loses.
+    template <class SelectEffects, class SelectCasters>
+    Plan<Shadow> make(const SelectEffects& select_effects, const SelectCasters& select_casters) {
+        CandidateSearch<T> search{casters_, extents_, plan_.tolerance * T(0.125), {}};
         find_penumbra(search);
         find_candidates(settings_.full, search);
-        plan_.bound = select(search.found);
-        keep_casters(search.found);
+        plan_.bound = select(search.found, select_effects);
         for (const Candidate<T>& candidate : search.found) {
-            if (candidate.effect == Effect::casters) continue;
             plan_.decisions.push_back(
                 {candidate.effect, !candidate.out, candidate.loss, T(0), candidate.reason, candidate.number});
             if (candidate.out) leave_out(candidate);
         }
+        std::vector<Candidate<T>> casters = find_casters();
+        plan_.bound += select(casters, select_casters);
+        keep_casters(casters);
         decide_at_points();
         std::stable_sort(plan_.decisions.begin(), plan_.decisions.end(),
                          [](const auto& a, const auto& b) { return a.effect < b.effect; });
@@ -112,15 +134,36 @@ class Planner {
     }
 
   private:
-    T budget() const { return plan_.tolerance * T(0.5); }
+    using Pointers = std::vector<Candidate<T>*>;
 
-    void find_casters(CandidateSearch<T>& search) const {
-        if (are_separable(static_cast<const Shadow*>(nullptr), settings_.full)) {
-            for (std::size_t i = 0; i < casters_.size(); ++i)
-                search.found.push_back({Effect::casters, extents_.hidden[i], "", T(0), i});
-        } else if (!casters_.empty()) {
-            search.found.push_back({Effect::casters, extents_.total_hidden(), "", T(0), casters_.size()});
+    template <class Select>
+    static T select(std::vector<Candidate<T>>& candidates, const Select& choose) {
+        Pointers common;
+        T lost = T(0);
+        for (Candidate<T>& candidate : candidates) {
+            candidate.out = candidate.has_own_budget;
+            if (candidate.has_own_budget)
+                lost += candidate.loss;
+            else
+                common.push_back(&candidate);
         }
+        return lost + choose(common);
+    }
+
+    /// Those that can be left out one by one, or all together.
+    std::vector<Candidate<T>> find_casters() const {
+        std::vector<Candidate<T>> found;
+        if (are_separable(plan_.options) && has_own_frame(plan_.light)) {
+            for (std::size_t i = 0; i < casters_.size(); ++i)
+                found.push_back({Effect::casters, counted(casters_[i], extents_.hidden[i]), "", T(0), i});
+        } else if (!casters_.empty()) {
+            T all = T(0);
+            for (std::size_t i = 0; i < casters_.size(); ++i)
+                all += image_size(plan_.options) > 0 ? (extents_.hidden[i] > T(0) ? T(1) : T(0))
+                                                     : counted(casters_[i], extents_.hidden[i]);
+            found.push_back({Effect::casters, saturate(all), "", T(0), casters_.size()});
+        }
+        return found;
     }
     void find_penumbra(CandidateSearch<T>& search) const {
         const T width = extents_.widest_penumbra();
@@ -132,7 +175,6 @@ class Planner {
         std::vector<bool> out(casters_.size(), false);
         T lost = T(0), least_kept = T(1);
         for (const Candidate<T>& candidate : found) {
-            if (candidate.effect != Effect::casters) continue;
             if (!candidate.out) {
                 least_kept = std::min(least_kept, candidate.loss);
                 continue;
@@ -152,7 +194,8 @@ class Planner {
                                        static_cast<T>(left_out)});
         else
             plan_.decisions.push_back({Effect::casters, true, least_kept, T(0),
-                                       "each hides at least %s of the light from some receiver", least_kept});
+                                       "what could be left out hides up to %s of the light from a receiver",
+                                       least_kept});
     }
 
     void leave_out(const Candidate<T>& candidate) {

@@ -108,6 +108,26 @@ Box3<T> seen_box(const Mesh<T>& mesh, const LightFrame<T>& frame) {
     return {box.min - margin, box.max + margin};
 }
 
+/// By two texels of an image over all casters as a light of this size sees them, from its nearest depth to its
+/// farthest.
+template <class T>
+void widen_by_texels(std::vector<Box3<T>>& boxes, const Vec2<T>& half_size, int image_size) {
+    T nearest = std::numeric_limits<T>::max(), farthest = T(0), reach = T(0);
+    for (const Box3<T>& box : boxes) {
+        if (is_empty(box) || !(box.max.z > T(0))) continue;
+        nearest = std::min(nearest, std::max(box.min.z, T(0))), farthest = std::max(farthest, box.max.z);
+        const Vec3<T> out = glm::max(glm::abs(box.min), glm::abs(box.max));
+        reach = std::max({reach, out.x + half_size.x, out.y + half_size.y});
+    }
+    constexpr T most = T(1e3);
+    const T larger = nearest * most > farthest ? farthest / nearest : most;
+    const T margin = T(4) * reach * larger / static_cast<T>(image_size);
+    for (Box3<T>& box : boxes) {
+        if (is_empty(box)) continue;
+        box.min.x -= margin, box.min.y -= margin, box.max.x += margin, box.max.y += margin;
+    }
+}
+
 /// Neighbours in the list become one, until there are few.
 template <class T>
 void merge_to_few(std::vector<Box3<T>>& boxes) {
@@ -125,10 +145,11 @@ void merge_to_few(std::vector<Box3<T>>& boxes) {
 }  // namespace detail
 
 /// Costs one look at every vertex. Casters, light and receivers are valid; casters receive if `casters_receive`, and if
-/// they do not and there are no receivers, these may be anywhere.
+/// they do not and there are no receivers, these may be anywhere. For methods by images of so many texels a side
+/// casters' boxes are widened by two texels as they are at most; 0: they are not.
 template <class T, class Light>
 SceneExtents<T> scene_extents(const std::vector<Mesh<T>>& casters, const Light& light,
-                              const std::vector<Mesh<T>>& receivers, bool casters_receive) {
+                              const std::vector<Mesh<T>>& receivers, bool casters_receive, int image_size = 0) {
     SceneExtents<T> result;
     Box3<T> all = empty_box<T>();
     if constexpr (!std::is_same_v<Light, DiskLight<T>>) all = bounds(casters);
@@ -136,6 +157,7 @@ SceneExtents<T> scene_extents(const std::vector<Mesh<T>>& casters, const Light& 
     result.light = detail::light_extent(light);
     for (const Mesh<T>& mesh : casters) result.casters.push_back(detail::seen_box(mesh, result.frame));
     if (casters_receive) result.receivers = result.casters;
+    if (image_size > 0) detail::widen_by_texels(result.casters, result.light.half_size, image_size);
     for (const Mesh<T>& mesh : receivers) result.receivers.push_back(detail::seen_box(mesh, result.frame));
     detail::merge_to_few(result.receivers);
     constexpr T far = T(1e9);

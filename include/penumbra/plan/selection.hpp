@@ -45,20 +45,19 @@ struct Candidate {
     T loss;
     const char* reason;
     T number;
-    std::size_t caster = 0;  ///< Effect::casters
+    std::size_t caster = 0;       ///< Effect::casters
+    bool has_own_budget = false;  ///< and is within it
     bool out = false;
 };
 
-/// Marks the cheapest candidates whose losses together are at most `budget`. What `was_out` keeps its place up to the
-/// whole budget, others come out only within the share 1 − hysteresis of it. Returns the losses' sum.
+/// Marks the cheapest of these candidates whose losses together are at most `budget`. What `was_out` keeps its place up
+/// to the whole budget, others come out only within the share 1 − hysteresis of it. Returns the losses' sum.
 template <class T, class WasOut>
-T select(std::vector<Candidate<T>>& candidates, T budget, T hysteresis, const WasOut& was_out) {
-    std::vector<Candidate<T>*> order;
-    for (Candidate<T>& candidate : candidates) order.push_back(&candidate);
-    std::stable_sort(order.begin(), order.end(),
+T select(std::vector<Candidate<T>*> candidates, T budget, T hysteresis, const WasOut& was_out) {
+    std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate<T>* a, const Candidate<T>* b) { return a->loss < b->loss; });
     T sum = T(0);
-    for (Candidate<T>* const candidate : order) {
+    for (Candidate<T>* const candidate : candidates) {
         const T most = was_out(*candidate) ? budget : budget * (T(1) - hysteresis);
         candidate->out = sum + candidate->loss <= most;
         if (candidate->out) sum += candidate->loss;

@@ -31,7 +31,7 @@ namespace detail {
 template <class T, class Shadow, class Vary>
 class TileQuery {
   public:
-    /// `tolerance` > 0.
+    /// `tolerance` ≥ 0.
     TileQuery(const Shadow& shadow, const Vary& vary, const LightFrame<T>& frame, T tolerance)
         : shadow_(shadow), vary_(vary), frame_(frame), tolerance_(tolerance) {}
 
@@ -83,8 +83,8 @@ class TileQuery {
             split(t, many, count);
             t += many;
         }
-        std::array<Vec3<T>, most> asked;
-        std::array<T, most> answered;
+        std::array<Vec3<T>, most> asked{};
+        std::array<T, most> answered{};
         for (std::size_t q = 0; q < queries_; ++q) asked[q] = points[queried_[q]];
         shadow_.visibility(asked.data(), queries_, answered.data());
         for (std::size_t i = 0; i < count; ++i)
@@ -146,7 +146,7 @@ class TileQuery {
             tell(first, count, PointAnswer::lit);
         } else if (variation.known && is_even(variation, box_ls)) {
             for (std::size_t i = first; i < first + count; ++i) ask(i, first + count / 2);
-        } else if (variation.known && count > 1) {
+        } else if (variation.known && count > 1 && tolerance_ > T(0)) {
             share_answers(first, count, variation);
         } else if (tiles > 1) {
             for (std::size_t t = first_tile; t < first_tile + tiles; ++t) split(t, 1, all);
@@ -168,8 +168,8 @@ class TileQuery {
     void share_answers(std::size_t first, std::size_t count, const Variation<T>& variation) {
         const Vec2<T> d = variation.direction;
         const Vec3<T> along = frame_.u * d.x + frame_.v * d.y, across = frame_.v * d.x - frame_.u * d.y;
-        std::array<T, parts * tile> x, y, z, away;
-        std::array<int, parts * tile> cell;
+        std::array<T, parts*tile>&x = x_, &y = y_, &z = z_, &away = away_;
+        std::array<int, parts* tile>& cell = cell_;
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3<T> from = points_[first + i] - frame_.origin;
             x[i] = from.x * along.x + from.y * along.y + from.z * along.z;
@@ -234,6 +234,8 @@ class TileQuery {
     T* result_ = nullptr;
     PointAnswer* answers_ = nullptr;
     std::array<Box3<T>, most / tile> boxes_;
+    std::array<T, parts * tile> x_{}, y_{}, z_{}, away_{};  ///< of points that share answers
+    std::array<int, parts * tile> cell_{};
     std::array<std::uint16_t, most> asked_at_, answered_by_, queried_;  ///< of each point; of each query
     std::size_t queries_ = 0;
 };
