@@ -12,6 +12,7 @@
 
 #include "progress.hpp"
 #include "rays.hpp"
+#include "result.hpp"
 #include "shade.hpp"
 #include "timing.hpp"
 #include "view.hpp"
@@ -66,9 +67,10 @@ Points bands_of(const View& view, double ns_per_point) {
     return points;
 }
 
+/// How points came by their answers, light blue, green and orange, darker in the shade.
 Image<Rgb> answers_picture(const View& view, const std::vector<float>& visibility,
                            const std::vector<PointAnswer>& answers) {
-    constexpr std::array<Rgb, 3> tints = {{{196, 214, 232}, {120, 200, 140}, {240, 140, 60}}};  // lit, shared, own
+    constexpr std::array<Rgb, 3> tints = {{{196, 214, 232}, {120, 200, 140}, {240, 140, 60}}};
     Image<Rgb> picture(view.width, view.height, Rgb(228, 230, 232));
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const Rgb tint = tints[static_cast<std::size_t>(answers[i])];
@@ -78,25 +80,37 @@ Image<Rgb> answers_picture(const View& view, const std::vector<float>& visibilit
     return picture;
 }
 
+/// Every second pixel of every second line.
+Image<Rgb> halved(const Image<Rgb>& picture) {
+    Image<Rgb> result(picture.width() / 2, picture.height() / 2);
+    for (int y = 0; y < result.height(); ++y)
+        for (int x = 0; x < result.width(); ++x) result(x, y) = picture(2 * x, 2 * y);
+    return result;
+}
+
 template <class Shadow>
 void draw(const Scene& scene, const Shadow& full, const PlannedShadow<Shadow>& planned, const PlanRow& row,
           const std::filesystem::path& folder) {
-    const View view = look(scene, 480, 360);
+    const View view = look(scene, 960, 720);
     const std::size_t n = view.points.size();
     std::vector<float> a(n), b(n);
     std::vector<PointAnswer> answers(n);
-    full.visibility(view.points.data(), n, a.data());
-    planned.visibility(view.points.data(), n, b.data(), answers.data());
+    in_parallel(n, [&](std::size_t first, std::size_t count) {
+        full.visibility(view.points.data() + first, count, a.data() + first);
+        planned.visibility(view.points.data() + first, count, b.data() + first, answers.data() + first);
+    });
     std::string left_out;
     for (const auto& decision : planned.plan().decisions)
-        if (!decision.simulated) left_out += (left_out.empty() ? "" : ", ") + std::string(name_of(decision.effect));
-    write_png(folder / fmt::format("{}-{}-plan.png", row.scene, row.method),
-              side_by_side({{fmt::format("{}\nfull: {:.0f} ns a point", row.scene, row.full_ns), shade(view, a)},
-                            {fmt::format("planned, within {:g}\n{:.0f} ns; without {}", row.tolerance, row.planned_ns,
-                                         left_out.empty() ? "nothing" : left_out),
-                             shade(view, b)},
-                            {"lit, one of several, own query\n(here 480 × 360 pixels; of more, more are shared)",
-                             answers_picture(view, b, answers)}}));
+        if (!decision.simulated)
+            left_out += (left_out.empty() ? "; without " : ", ") + std::string(name_of(decision.effect));
+    write_png(
+        folder / fmt::format("{}-{}-plan.png", row.scene, row.method),
+        side_by_side(
+            {{fmt::format("{}, all effects\n{} ns a point", row.scene, digits(row.full_ns)), halved(shade(view, a))},
+             {fmt::format("planned, within {:g}\n{} ns a point{}", row.tolerance, digits(row.planned_ns), left_out),
+              halved(shade(view, b))},
+             {"who answers\nblue: nobody, all lit; green: a neighbour; orange: its own query",
+              halved(answers_picture(view, b, answers))}}));
 }
 
 template <class Shadow>

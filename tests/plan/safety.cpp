@@ -33,7 +33,7 @@ namespace {
 #define PENUMBRA_SAFETY_FIRST 1
 #endif
 constexpr std::uint32_t scenes = PENUMBRA_SAFETY_SCENES, first_scene = PENUMBRA_SAFETY_FIRST;
-constexpr float rounding = 1e-4F;
+constexpr float rounding = 2e-4F;
 
 /// Over all scenes of a method.
 struct Tally {

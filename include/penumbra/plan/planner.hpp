@@ -233,7 +233,7 @@ class Planner {
 /// Which effects a scene calls for: those without which visibility might change by more than `tolerance` at one of the
 /// receivers. Of others those whose loss is smallest are left out first, as long as all losses together stay within the
 /// tolerance; each loss is a limit from boxes around casters and receivers, so that planning takes a hundredth of
-/// building. |planned − full| ≤ bound ≤ tolerance, up to rounding, 1e-4.
+/// building. |planned − full| ≤ bound ≤ tolerance, up to rounding, 2e-4.
 /// Visibility is asked for on receivers, and on casters unless settings say otherwise; if on neither, anywhere.
 /// Stable: a larger tolerance never simulates more; see PlanSettings for scenes that move. Reports a light and options
 /// out of their domain, and a tolerance below 0 or not finite, by name; meshes are the shadow's to check.

@@ -37,20 +37,17 @@ class TileQuery {
 
     /// `answers`, if any, is told how each point came by its answer.
     void operator()(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers) {
-        std::size_t skip = 0, pause = 1;
+        bool try_tiles = true;
         for (std::size_t first = 0; first < count; first += most) {
             const std::size_t n = std::min(most, count - first);
             PointAnswer* const told = answers ? answers + first : nullptr;
-            // where tiles have not paid, the next are not tried; longer and longer, as long as they do not pay
-            if (skip > 0) {
-                --skip;
+            if (!try_tiles) {  // they did not pay; the next are tried again
                 ask_all(points + first, n, result + first, told);
+                try_tiles = true;
                 continue;
             }
             const std::size_t asked = ask_by_tiles(points + first, n, result + first, told);
-            const bool pays = asked * 10 < n * 9;
-            skip = pays ? 0 : pause;
-            pause = pays ? 1 : std::min<std::size_t>(2 * pause, 2);
+            try_tiles = asked * 20 < n * 19;
         }
     }
 
