@@ -14,6 +14,7 @@ struct Arguments {
     std::string scene = "spheres", mesh, light, method, gl = "4.3";
     std::vector<std::string> knobs;
     float light_size = 1.0F;
+    float plan = -1.0F;  ///< the tolerance of a plan; negative: none
     glm::ivec2 size{960, 720};
     bool size_given = false;
     bool ordinary_depth = false;

@@ -73,6 +73,7 @@ void run_headless(const Arguments& arguments) {
     const std::string method = arguments.method.empty() ? methods_for(scene.light, can).front() : arguments.method;
     Viewer viewer(scene, method, can, !arguments.ordinary_depth);
     for (const std::string& knob : arguments.knobs) viewer.set_knob(knob);
+    if (arguments.plan >= 0.0F) fmt::print("{}", viewer.plan(arguments.plan));
     viewer.resize(arguments.size);
     viewer.show.picture = arguments.picture;
     viewer.show.split = arguments.split;

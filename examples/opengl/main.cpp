@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
     app.add_option("--method", arguments.method, "one for such a light if none is named")
         ->check(CLI::IsMember(method_names()));
     app.add_option("--knob", arguments.knobs, "name=value, one of the method's; again for more");
+    app.add_option("--plan", arguments.plan, "turn the method's knobs as planned for this tolerance, and say why")
+        ->check(CLI::Range(0.0, 1.0));
     app.add_option_function<std::string>(
            "--size",
            [&](const std::string& text) {

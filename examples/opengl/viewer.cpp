@@ -70,6 +70,7 @@ void Viewer::set_camera(const scenes::Camera& camera) {
 void Viewer::set_method(const std::string& name) {
     method_ = make_method(name, can_);
     method_name_ = name;
+    plan_words_.clear();
     timers_.clear();
     is_prepared_ = false;
     if (!method_->takes(scene_.light)) set_light(scenes::as_kind(scene_.light, kind_for(*method_, scene_.light)));
@@ -82,6 +83,12 @@ std::vector<Knob> Viewer::knobs() {
 }
 
 void Viewer::knob_changed() { is_prepared_ = false; }
+
+const std::string& Viewer::plan(float tolerance) {
+    plan_words_ = method_->plan(scene_, tolerance);
+    knob_changed();
+    return plan_words_;
+}
 
 void Viewer::set_knob(const std::string& setting) {
     const std::size_t equals = setting.find('=');

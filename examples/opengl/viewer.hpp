@@ -43,6 +43,9 @@ class Viewer {
     /// The method's, and what tiles are for: "show" colours them by their classes.
     std::vector<Knob> knobs();
     void knob_changed();
+    /// Turns the method's knobs as a plan has them; what it decided, an empty text where there are no plans.
+    const std::string& plan(float tolerance);
+    const std::string& plan_words() const { return plan_words_; }
     /// "name=value", the value a number or a name. Throws std::runtime_error with a message for the user.
     void set_knob(const std::string& setting);
     void resize(glm::ivec2 size) { renderer_.resize(size); }
@@ -76,6 +79,7 @@ class Viewer {
     scenes::Scene scene_;
     std::string method_name_;
     std::unique_ptr<Method> method_;
+    std::string plan_words_;
     Tiles tiles_ = Tiles::off;
     TileClasses tile_classes_;
     Renderer renderer_;

@@ -144,3 +144,29 @@ TEST_CASE("methods that tiles spare nothing have no such knob") {
     viewer.draw_frame();
     CHECK(viewer.tiles() == nullptr);
 }
+
+TEST_CASE("knobs as planned change visibility by no more than the tolerance") {
+    const opengl::HeadlessContext context("4.3");
+    Viewer viewer(scenes::make_scene("sheet"), "penumbra_wedge", opengl::capabilities("4.3"), true);
+    viewer.resize({60, 45});
+    viewer.draw_frame();
+    const std::vector<float> full = viewer.asked().visible;
+    const std::string words = viewer.plan(0.02F);
+    CHECK(words.find("overlap: left out") != std::string::npos);
+    for (const opengl::Knob& knob : viewer.knobs())
+        if (knob.name == "overlap") CHECK(knob.names[static_cast<std::size_t>(knob.get())] == "additive");
+    viewer.draw_frame();
+    const std::vector<float> planned = viewer.asked().visible;
+    REQUIRE(planned.size() == full.size());
+    for (std::size_t i = 0; i < full.size(); ++i) CHECK(std::abs(planned[i] - full[i]) <= 0.02F);
+
+    for (const char* kind : {"rectangle", "disk", "line"}) {
+        viewer.set_light(scenes::as_kind(viewer.scene().light, kind));
+        for (const std::string& name : opengl::methods_for(viewer.scene().light, opengl::capabilities("4.3"))) {
+            viewer.set_method(name);
+            CAPTURE(name);
+            CHECK(viewer.plan(0.02F).empty() == (name == "pcss"));
+            viewer.draw_frame();
+        }
+    }
+}

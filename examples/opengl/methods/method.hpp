@@ -79,6 +79,9 @@ class Method {
     virtual std::optional<TileView> tile_view() const { return std::nullopt; }
     /// All passes of a frame, those that depend on the light alone included.
     virtual void draw(const Geometry& geometry, const Frame& frame, Timers& timers) = 0;
+    /// Turns knobs as a plan has them, which loses no more than `tolerance` of visibility, and says what was decided;
+    /// an empty text where there are no plans. All casters stay. After it: prepare().
+    virtual std::string plan(const scenes::Scene&, float /*tolerance*/) { return {}; }
     /// Visibility of the same scene by the C++ with the same knobs.
     virtual Query by_cpp(const scenes::Scene& scene) const = 0;
 };

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "method.hpp"
+#include "planned.hpp"
 #include "slice_capture.hpp"
 #include "slice_filter.hpp"
 
@@ -53,6 +54,7 @@ class OcclusionTexture final : public Method {
     void prepare(const scenes::Scene& scene, const Geometry&) override;
     std::optional<TileView> tile_view() const override;
     void draw(const Geometry& geometry, const Frame& frame, Timers& timers) override;
+    std::string plan(const scenes::Scene& scene, float tolerance) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
   private:
@@ -99,6 +101,12 @@ OcclusionTextureOptions OcclusionTexture::options() const {
     Options options = options_;
     options.blend = blends[static_cast<std::size_t>(blend_)];
     return options;
+}
+
+std::string OcclusionTexture::plan(const scenes::Scene& scene, float tolerance) {
+    const auto plan = planned<OcclusionTextureShadow<float>>(scene, options(), tolerance);
+    options_.slices = plan.options.slices, options_.self_shadow = plan.options.self_shadow;  // leaks are the blend's
+    return plan.text();
 }
 
 Query OcclusionTexture::by_cpp(const scenes::Scene& scene) const {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "method.hpp"
+#include "planned.hpp"
 
 namespace penumbra::opengl {
 namespace {
@@ -105,6 +106,7 @@ class PenumbraWedge final : public Method {
     void prepare(const scenes::Scene& scene, const Geometry&) override;
     std::optional<TileView> tile_view() const override;
     void draw(const Geometry&, const Frame& frame, Timers& timers) override;
+    std::string plan(const scenes::Scene& scene, float tolerance) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
   private:
@@ -166,6 +168,12 @@ PenumbraWedgeOptions PenumbraWedge::options() const {
     options.silhouette = SilhouetteFrom::light_center;
     if (options.overlap >= OverlapRule::rectangle_product) options.overlap = OverlapRule::rectangles;
     return options;
+}
+
+std::string PenumbraWedge::plan(const scenes::Scene& scene, float tolerance) {
+    const auto plan = planned<PenumbraWedgeShadow<float>>(scene, options(), tolerance);
+    options_.overlap = plan.options.overlap, options_.silhouette = plan.options.silhouette;
+    return plan.text();
 }
 
 Query PenumbraWedge::by_cpp(const scenes::Scene& scene) const {

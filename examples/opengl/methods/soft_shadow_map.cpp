@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "method.hpp"
+#include "planned.hpp"
 
 namespace penumbra::opengl {
 namespace {
@@ -52,6 +53,7 @@ class SoftShadowMapMethod final : public Method {
     void prepare(const scenes::Scene& scene, const Geometry&) override;
     std::optional<TileView> tile_view() const override;
     void draw(const Geometry& geometry, const Frame& frame, Timers& timers) override;
+    std::string plan(const scenes::Scene& scene, float tolerance) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
   private:
@@ -114,6 +116,12 @@ SoftShadowMapOptions SoftShadowMapMethod::options() const {
     options.resolution = std::min(options.resolution, std::min(rows, 16384) / options.samples);
     options.most_samples = 0;
     return options;
+}
+
+std::string SoftShadowMapMethod::plan(const scenes::Scene& scene, float tolerance) {
+    const auto plan = planned<SoftShadowMap<float>>(scene, options(), tolerance);
+    options_.transition = plan.options.transition;
+    return plan.text();
 }
 
 Query SoftShadowMapMethod::by_cpp(const scenes::Scene& scene) const {

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "method.hpp"
+#include "planned.hpp"
 
 namespace penumbra::opengl {
 namespace {
@@ -100,6 +101,7 @@ class UmbraVolumeMethod final : public Method {
     void prepare(const scenes::Scene& scene, const Geometry&) override;
     std::optional<TileView> tile_view() const override;
     void draw(const Geometry&, const Frame& frame, Timers& timers) override;
+    std::string plan(const scenes::Scene& scene, float tolerance) override;
     Query by_cpp(const scenes::Scene& scene) const override;
 
   private:
@@ -136,6 +138,12 @@ std::vector<Knob> UmbraVolumeMethod::knobs() {
             choice_knob("share", options_.share, {"edge", "depths"}),
             choice_knob("depth", options_.depth, {"light_plane", "euclidean"}),
             choice_knob("silhouette", options_.silhouette, {"disk", "light_center"})};
+}
+
+std::string UmbraVolumeMethod::plan(const scenes::Scene& scene, float tolerance) {
+    const auto plan = planned<UmbraVolumeShadow<float>>(scene, options_, tolerance);
+    options_.layers = plan.options.layers, options_.silhouette = plan.options.silhouette;
+    return plan.text();
 }
 
 Query UmbraVolumeMethod::by_cpp(const scenes::Scene& scene) const {

@@ -75,6 +75,13 @@ void turn_knobs(Viewer& viewer) {
     }
 }
 
+void plan(Viewer& viewer) {
+    static float tolerance = 0.02F;
+    ImGui::SliderFloat("tolerance", &tolerance, 0.0F, 0.2F, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::Button("Turn knobs as planned")) viewer.plan(tolerance);
+    if (!viewer.plan_words().empty()) ImGui::TextWrapped("%s", viewer.plan_words().c_str());
+}
+
 void choose_picture(Viewer& viewer) {
     static const std::vector<std::string> names{"shaded", "visibility", "difference"};
     std::string name = names[static_cast<std::size_t>(viewer.show.picture)];
@@ -108,6 +115,7 @@ Pressed draw_panel(Viewer& viewer, bool is_paused) {
     pressed.camera = choose_scene(viewer);
     if (ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) edit_light(viewer);
     if (ImGui::CollapsingHeader("Knobs", ImGuiTreeNodeFlags_DefaultOpen)) turn_knobs(viewer);
+    if (ImGui::CollapsingHeader("Plan")) plan(viewer);
     if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) choose_picture(viewer);
     if (ImGui::CollapsingHeader("Time", ImGuiTreeNodeFlags_DefaultOpen)) show_times(viewer.timers());
     pressed.screenshot = ImGui::Button("Screenshot (S)");

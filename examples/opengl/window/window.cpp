@@ -154,6 +154,7 @@ void run_window(const Arguments& arguments) {
     Viewer viewer(scene, arguments.method.empty() ? methods_for(scene.light, can).front() : arguments.method, can,
                   !arguments.ordinary_depth);
     for (const std::string& knob : arguments.knobs) viewer.set_knob(knob);
+    if (arguments.plan >= 0.0F) viewer.plan(arguments.plan);
     viewer.show.picture = arguments.picture;
     viewer.show.split = arguments.split;
     Orbit orbit(scene.camera);

@@ -194,8 +194,7 @@ class Planner {
                                        static_cast<T>(left_out)});
         else
             plan_.decisions.push_back({Effect::casters, true, least_kept, T(0),
-                                       "the least of them hides up to %s of the light from a receiver",
-                                       least_kept});
+                                       "the least of them hides up to %s of the light from a receiver", least_kept});
     }
 
     void leave_out(const Candidate<T>& candidate) {
