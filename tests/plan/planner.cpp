@@ -266,6 +266,17 @@ TEST_CASE("plans report what is out of its domain by name") {
     CHECK(test::error_of([&] { plan(casters, light, ground(), 0.01F, settings); }).find("bitmask_size") != none);
 }
 
+TEST_CASE("broken meshes are the shadow's to report") {
+    Meshes casters = {test::box_mesh<float>(Vec3<float>(0.0F, 0.0F, 2.0F), Vec3<float>(0.3F, 0.3F, 0.3F))};
+    casters[0].triangles[3].y = 1000000;
+    const Plan<Wedges> planned = plan(casters, lamp(6.0F, 0.5F, 0.5F), ground(), 0.01F, not_receiving());
+    CHECK(test::error_of([&] { PlannedShadow<Wedges>(casters, planned); }).find("casters[0]") != std::string::npos);
+    casters[0] = test::box_mesh<float>(Vec3<float>(0.0F, 0.0F, 2.0F), Vec3<float>(0.3F, 0.3F, 0.3F));
+    casters[0].positions[2].x = std::numeric_limits<float>::quiet_NaN();
+    const Plan<Wedges> other = plan(casters, lamp(6.0F, 0.5F, 0.5F), ground(), 0.01F, not_receiving());
+    CHECK(test::error_of([&] { PlannedShadow<Wedges>(casters, other); }).find("casters[0]") != std::string::npos);
+}
+
 TEST_CASE("nothing casts: nothing is simulated, and everything is lit") {
     const RectLight<float> light = lamp(3.0F, 1.0F, 1.0F);
     const PlannedShadow<Wedges> none({}, plan({}, light, ground(), 0.01F));

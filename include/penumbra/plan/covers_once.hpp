@@ -17,6 +17,9 @@ bool covers_once(const Mesh<T>& mesh) {
     constexpr std::size_t most_faces = 32;
     const std::size_t faces = mesh.triangles.size(), vertices = mesh.positions.size();
     if (faces <= 1) return true;
+    for (std::size_t f = 0; f < std::min(faces, most_faces); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (mesh.triangles[f][k] >= vertices) return false;  // for the shadow's constructor to report
     const bool quad = faces == 2 && vertices == 4;
     if (!quad && (faces > most_faces || faces + 4 != 2 * vertices)) return false;
     // every edge runs both ways, or for a quad one does: differences of hashes of edges cancel

@@ -8,7 +8,6 @@
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
 #include <penumbra/plan/extents.hpp>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -63,17 +62,29 @@ struct SceneExtents {
 
 namespace detail {
 
+/// The middle of all that casters' faces reach to, at which lights without a direction of their own look; of broken
+/// meshes, of what is not.
 template <class T>
-LightFrame<T> plan_frame(const RectLight<T>& light, const Vec3<T>& aim) {
-    return light_frame(light, aim - light.center);
+Vec3<T> middle_of(const std::vector<Mesh<T>>& casters) {
+    Box3<T> box = empty_box<T>();
+    for (const Mesh<T>& mesh : casters)
+        for (const glm::uvec3& t : mesh.triangles)
+            for (int k = 0; k < 3; ++k)
+                if (t[k] < mesh.positions.size()) box = extend(box, mesh.positions[t[k]]);
+    return is_empty(box) ? Vec3<T>(T(0), T(0), T(0)) : (box.min + box.max) * T(0.5);
 }
 template <class T>
-LightFrame<T> plan_frame(const DiskLight<T>& light, const Vec3<T>&) {
+LightFrame<T> plan_frame(const RectLight<T>& light, const std::vector<Mesh<T>>& casters) {
+    const Vec2<T> half = half_size(light);
+    return half.x > T(0) && half.y > T(0) ? light_frame(light) : light_frame(light, middle_of(casters) - light.center);
+}
+template <class T>
+LightFrame<T> plan_frame(const DiskLight<T>& light, const std::vector<Mesh<T>>&) {
     return light_frame(light);
 }
 template <class T>
-LightFrame<T> plan_frame(const LinearLight<T>& light, const Vec3<T>& aim) {
-    return light_frame(light, aim - (light.a * T(0.5) + light.b * T(0.5)));
+LightFrame<T> plan_frame(const LinearLight<T>& light, const std::vector<Mesh<T>>& casters) {
+    return light_frame(light, middle_of(casters) - (light.a * T(0.5) + light.b * T(0.5)));
 }
 template <class T>
 LightExtent<T> light_extent(const RectLight<T>& light) {
@@ -151,9 +162,7 @@ template <class T, class Light>
 SceneExtents<T> scene_extents(const std::vector<Mesh<T>>& casters, const Light& light,
                               const std::vector<Mesh<T>>& receivers, bool casters_receive, int image_size = 0) {
     SceneExtents<T> result;
-    Box3<T> all = empty_box<T>();
-    if constexpr (!std::is_same_v<Light, DiskLight<T>>) all = bounds(casters);
-    result.frame = detail::plan_frame(light, is_empty(all) ? Vec3<T>(T(0), T(0), T(0)) : (all.min + all.max) * T(0.5));
+    result.frame = detail::plan_frame(light, casters);
     result.light = detail::light_extent(light);
     for (const Mesh<T>& mesh : casters) result.casters.push_back(detail::seen_box(mesh, result.frame));
     if (casters_receive) result.receivers = result.casters;
