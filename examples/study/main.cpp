@@ -73,7 +73,8 @@ int run_plans(const Arguments& arguments, const std::string& command) {
     std::filesystem::create_directories(folder);
     std::vector<PlanRow> rows;
     for (const Scene& scene : wanted_scenes(arguments))
-        for (PlanRow& row : measure_plans(scene, arguments.tolerance, arguments.lines, folder)) rows.push_back(std::move(row));
+        for (PlanRow& row : measure_plans(scene, arguments.tolerance, arguments.lines, folder))
+            rows.push_back(std::move(row));
     write_plans(rows,
                 {{"command", command},
                  {"machine", processor()},

@@ -13,6 +13,7 @@
 #include "progress.hpp"
 #include "rays.hpp"
 #include "result.hpp"
+#include "settings.hpp"
 #include "shade.hpp"
 #include "timing.hpp"
 #include "view.hpp"
@@ -25,15 +26,6 @@ template <class Shadow>
 struct Tag {
     using type = Shadow;
 };
-
-template <class Shadow>
-Shadow build_full(const Scene& scene, const typename Shadow::Options& options) {
-    const auto& light = std::get<typename Shadow::Light>(scene.light);
-    if constexpr (std::is_same_v<Shadow, SoftShadowMap<float>>)
-        return Shadow(scene.casters, light, options, {scene.ground});
-    else
-        return Shadow(scene.casters, light, options);
-}
 
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -127,12 +119,12 @@ PlanRow measure(const Scene& scene, const View& view, const std::string& method,
     row.points_of_picture = view.points.size();
     say(scene.name, "plans of " + method);
     const auto start = Clock::now();
-    const Shadow full = build_full<Shadow>(scene, options);
+    const Shadow full = make_shadow<Shadow>(scene, options);
     const int builds = seconds_since(start) < 0.05 ? 9 : 3;
     const Plan<Shadow> plan = plan_it();
     const PlannedShadow<Shadow> planned(scene.casters, plan, {scene.ground});
     row.words = plan.text(), row.bound = static_cast<double>(plan.bound);
-    row.full_build_ms = median_ms(builds, [&] { build_full<Shadow>(scene, options); });
+    row.full_build_ms = median_ms(builds, [&] { make_shadow<Shadow>(scene, options); });
     row.build_ms = median_ms(builds, [&] { PlannedShadow<Shadow>(scene.casters, plan, {scene.ground}); });
     row.plan_ms = median_ms(2 * builds + 1, plan_it);
 

@@ -37,6 +37,17 @@ struct Setting {
     std::string special;                       ///< why there is a picture of it in any case; empty if there need not be
 };
 
+/// What takes receivers is told of the ground. The scene's light is of the kind that `Shadow` is for.
+template <class Shadow>
+Shadow make_shadow(const Scene& scene, const typename Shadow::Options& options) {
+    const auto& light = std::get<typename Shadow::Light>(scene.light);
+    using Meshes = std::vector<Mesh<float>>;
+    if constexpr (std::is_constructible_v<Shadow, Meshes, typename Shadow::Light, typename Shadow::Options, Meshes>)
+        return Shadow(scene.casters, light, options, {scene.ground});
+    else
+        return Shadow(scene.casters, light, options);
+}
+
 /// The setting of `Shadow`, which is for lights of kind `For`, with the given options. What takes receivers is told of
 /// the ground.
 template <class Shadow, class For>
@@ -47,13 +58,7 @@ Setting make_setting(const std::string& method, const nlohmann::ordered_json& kn
             is_default,
             [](const Light& light) { return std::holds_alternative<For>(light); },
             [options](const Scene& scene) {
-                using Meshes = std::vector<Mesh<float>>;
-                const For& light = std::get<For>(scene.light);
-                std::shared_ptr<const Shadow> shadow;
-                if constexpr (std::is_constructible_v<Shadow, Meshes, For, typename Shadow::Options, Meshes>)
-                    shadow = std::make_shared<const Shadow>(scene.casters, light, options, Meshes{scene.ground});
-                else
-                    shadow = std::make_shared<const Shadow>(scene.casters, light, options);
+                const auto shadow = std::make_shared<const Shadow>(make_shadow<Shadow>(scene, options));
                 return Built{[shadow](const Vec3<float>* points, std::size_t count, float* result) {
                                  shadow->visibility(points, count, result);
                              },

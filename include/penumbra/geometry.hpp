@@ -135,6 +135,16 @@ Box3<T> extend(const Box3<T>& b, const Vec3<T>& point) {
     return {glm::min(b.min, point), glm::max(b.max, point)};
 }
 
+namespace detail {
+
+/// Around both.
+template <class T>
+Box3<T> join(const Box3<T>& a, const Box3<T>& b) {
+    return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
+}
+
+}  // namespace detail
+
 /// The plane { x : dot(normal, x) + offset = 0 }; its inside is where the left side is ≥ 0.
 template <class T>
 struct Plane {

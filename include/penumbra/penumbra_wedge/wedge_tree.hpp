@@ -54,11 +54,6 @@ struct WedgeTree {
     }
 };
 
-template <class T>
-Box3<T> join(const Box3<T>& a, const Box3<T>& b) {
-    return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
-}
-
 /// Splits items in two halves along the longest axis of their boxes' middles; returns the size of the first.
 template <class T, class Item>
 std::size_t split_in_halves(Item* items, std::size_t count) {

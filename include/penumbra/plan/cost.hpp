@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <penumbra/plan/planner.hpp>
 #include <vector>
 

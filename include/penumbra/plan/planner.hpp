@@ -10,6 +10,7 @@
 #include <penumbra/plan/selection.hpp>
 #include <penumbra/soft_shadow_map/shadow.hpp>
 #include <penumbra/umbra_volume/shadow.hpp>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -66,21 +67,6 @@ inline int image_size(const UmbraVolumeOptions& options) {
 }
 inline int image_size(const OcclusionTextureOptions& options) { return options.resolution; }
 inline int image_size(const SoftShadowMapOptions& options) { return options.resolution; }
-
-/// Whether the light looks where it does whatever casters there are.
-template <class T>
-bool has_own_frame(const RectLight<T>& light) {
-    const Vec2<T> half = half_size(light);
-    return half.x > T(0) && half.y > T(0);
-}
-template <class T>
-bool has_own_frame(const DiskLight<T>&) {
-    return true;
-}
-template <class T>
-bool has_own_frame(const LinearLight<T>&) {
-    return false;
-}
 
 template <class Shadow>
 class Planner {

@@ -62,6 +62,21 @@ struct SceneExtents {
 
 namespace detail {
 
+/// Whether the light looks where it does whatever casters there are.
+template <class T>
+bool has_own_frame(const RectLight<T>& light) {
+    const Vec2<T> half = half_size(light);
+    return half.x > T(0) && half.y > T(0);
+}
+template <class T>
+bool has_own_frame(const DiskLight<T>&) {
+    return true;
+}
+template <class T>
+bool has_own_frame(const LinearLight<T>&) {
+    return false;
+}
+
 /// The middle of all that casters' faces reach to, at which lights without a direction of their own look; of broken
 /// meshes, of what is not.
 template <class T>
@@ -75,8 +90,7 @@ Vec3<T> middle_of(const std::vector<Mesh<T>>& casters) {
 }
 template <class T>
 LightFrame<T> plan_frame(const RectLight<T>& light, const std::vector<Mesh<T>>& casters) {
-    const Vec2<T> half = half_size(light);
-    return half.x > T(0) && half.y > T(0) ? light_frame(light) : light_frame(light, middle_of(casters) - light.center);
+    return has_own_frame(light) ? light_frame(light) : light_frame(light, middle_of(casters) - light.center);
 }
 template <class T>
 LightFrame<T> plan_frame(const DiskLight<T>& light, const std::vector<Mesh<T>>&) {
@@ -148,7 +162,7 @@ void merge_to_few(std::vector<Box3<T>>& boxes) {
     std::vector<Box3<T>> merged;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         if (i % group == 0) merged.push_back(empty_box<T>());
-        merged.back() = {glm::min(merged.back().min, boxes[i].min), glm::max(merged.back().max, boxes[i].max)};
+        merged.back() = join(merged.back(), boxes[i]);
     }
     boxes = std::move(merged);
 }

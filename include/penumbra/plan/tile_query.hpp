@@ -54,8 +54,8 @@ class TileQuery {
   private:
     static constexpr std::size_t most = 1024, tile = 64, parts = 4;
     static constexpr std::uint16_t none = 0xffff;
-    static constexpr T smallest = T(1e-30);  ///< what extents are taken for that are none
-    T worth_sharing = T(12);                 ///< in tolerances, from a box's middle to its corners
+    static constexpr T smallest = T(1e-30);    ///< what extents are taken for that are none
+    static constexpr T worth_sharing = T(12);  ///< in tolerances, from a box's middle to its corners
 
     void ask_all(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers) const {
         shadow_.visibility(points, count, result);
@@ -132,8 +132,7 @@ class TileQuery {
     /// Answers the points of some tiles: together if that can be, else tile by tile, point by point.
     void split(std::size_t first_tile, std::size_t tiles, std::size_t all) {
         Box3<T> box = boxes_[first_tile];
-        for (std::size_t t = first_tile + 1; t < first_tile + tiles; ++t)
-            box = {glm::min(box.min, boxes_[t].min), glm::max(box.max, boxes_[t].max)};
+        for (std::size_t t = first_tile + 1; t < first_tile + tiles; ++t) box = join(box, boxes_[t]);
         const std::size_t first = first_tile * tile, count = std::min(tiles * tile, all - first);
         const Box3<T> box_ls = seen(box);
         Variation<T> variation;
