@@ -9,6 +9,7 @@
 #include <penumbra/penumbra_wedge/overlap.hpp>
 #include <penumbra/penumbra_wedge/radial_part.hpp>
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
+#include <penumbra/penumbra_wedge/union_blending.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 #include <tuple>
 #include <type_traits>
@@ -159,10 +160,13 @@ bool blend(const WedgeIndex<T>& index, const PointTile<T>& tile, const PenumbraW
         case OverlapRule::rectangle_product:
             return by_rectangles(RectangleBlender<T, RectangleProduct<T>>(tile));
         case OverlapRule::bitmask:
+            return blend_by_masks(index, tile, light, options.bitmask_size, static_cast<T>(options.tolerance),
+                                  may_give_up, occlusion);
+        case OverlapRule::exact:
             break;
     }
-    return blend_by_masks(index, tile, light, options.bitmask_size, static_cast<T>(options.tolerance), may_give_up,
-                          occlusion);
+    return blend_exactly(index, tile, light, options.bitmask_size, static_cast<T>(options.tolerance), may_give_up,
+                         occlusion);
 }
 
 }  // namespace penumbra::detail

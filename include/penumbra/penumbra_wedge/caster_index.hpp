@@ -66,16 +66,16 @@ class CasterIndex {
     }
 
     /// How much what casters hide of a light of this area can change between points of a box in light space, world
-    /// units, as exact sums say it; see silhouette_variation().
-    Variation<T> variation(const Box3<T>& box_ls, T light_area, T most) const {
+    /// units; see silhouette_variation().
+    Variation<T> variation(const Box3<T>& box_ls, T light_area, T most, OverlapChange overlap) const {
         if (index_.empty()) return Variation<T>::all_lit();
         const T area = light_area * scale_ * scale_;
         constexpr T least =
             T(1024) * std::numeric_limits<T>::epsilon();  // of lights whose shadows are not all rounding
         if (!(half_size_.x > least && half_size_.y > least)) return Variation<T>::unknown();
         Variation<T> result =
-            silhouette_variation(index_, {box_ls.min * scale_, box_ls.max * scale_}, half_size_, area, most);
-        result.along *= scale_, result.across *= scale_, result.deep *= scale_;
+            silhouette_variation(index_, {box_ls.min * scale_, box_ls.max * scale_}, half_size_, area, most, overlap);
+        result.along *= scale_, result.across *= scale_, result.deep *= scale_, result.slope *= scale_;
         return result;
     }
 

@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-/// How what several silhouettes block of the light combines, one silhouette a mesh but for `bitmask`.
+/// How what several silhouettes block of the light combines, one silhouette a mesh but for the last two.
 enum class OverlapRule {
     additive,             ///< plain wedges: right where silhouettes do not overlap, too dark elsewhere
     maximum,              ///< right where one hides behind the other
@@ -16,16 +16,18 @@ enum class OverlapRule {
     rectangles,           ///< overlap by bounding rectangles in each quarter: the paper
     rectangles_centroid,  ///< the same with centres of gravity: the paper's future work
     rectangle_product,    ///< rectangles as random, in any order of silhouettes
-    bitmask               ///< where silhouettes lie, cell by cell, beside their exact areas
+    bitmask,              ///< where silhouettes lie, cell by cell, beside their exact areas
+    exact                 ///< the area of all together
 };
 
 struct PenumbraWedgeOptions {
-    OverlapRule overlap = OverlapRule::bitmask;
-    /// Cells along each side of the light for OverlapRule::bitmask: 8, 16 or 32.
+    OverlapRule overlap = OverlapRule::exact;
+    /// Cells along each side of the light for OverlapRule::bitmask, and for `exact` where a point sees more than 256
+    /// edges before the light: 8, 16 or 32.
     int bitmask_size = 32;
     SilhouetteFrom silhouette = SilhouetteFrom::point;
-    /// OverlapRule::bitmask: masks are left out where they can change visibility by no more, 0 to 1; half a cell in any
-    /// case. plan() sets it.
+    /// `bitmask` and `exact`: overlaps are left out where they can change visibility by no more, 0 to 1; by masks half
+    /// a cell in any case. plan() sets it.
     float tolerance = 0.0F;
 };
 

@@ -61,10 +61,14 @@ class PenumbraWedgeShadow {
     /// How much visibility can change between points of a box in light space; unknown where it is more than `most`, and
     /// by rules that are not right for casters which do not overlap.
     Variation<T> variation(const Box3<T>& box_ls, T most) const {
-        if (options_.overlap != OverlapRule::bitmask && options_.overlap != OverlapRule::additive)
+        const OverlapRule rule = options_.overlap;
+        if (rule != OverlapRule::exact && rule != OverlapRule::bitmask && rule != OverlapRule::additive)
             return Variation<T>::unknown();
         const Vec2<T> half = casters_.scaled_half_size() / casters_.scale();
-        return casters_.variation(box_ls, T(4) * half.x * half.y, most);
+        return casters_.variation(box_ls, T(4) * half.x * half.y, most,
+                                  rule == OverlapRule::exact     ? detail::OverlapChange::outline
+                                  : rule == OverlapRule::bitmask ? detail::OverlapChange::none
+                                                                 : detail::OverlapChange::sum);
     }
 
     const Options& options() const { return options_; }

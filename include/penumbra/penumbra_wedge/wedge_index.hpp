@@ -76,9 +76,9 @@ class WedgeIndex {
         return true;
     }
 
-    /// For all points of a tile's box: calls visitor.begin_piece(box, simple) for pieces that may reach into their
-    /// pyramids, and visitor.edge(a, b, weight) for every edge there, and some beside, that may be on the silhouette
-    /// from any of them, `weight` being the most that it may count. Stops where the visitor answers false, and at a
+    /// For all points of a tile's box: calls visitor.begin_piece(box, simple, solid) for pieces that may reach into
+    /// their pyramids, and visitor.edge(a, b, least, most) for every edge there, and some beside, that may be on the
+    /// silhouette from any of them: its coefficient is between these. Stops where the visitor answers false, and at a
     /// face that the box may lie on both sides of. Returns whether it did not.
     template <class Visitor>
     bool visit_candidates(const PointTile<T>& tile, Visitor& visitor) const {
@@ -90,7 +90,7 @@ class WedgeIndex {
                 at = node.skip;
                 continue;
             }
-            if (node.piece_root && !visitor.begin_piece(node.box, node.simple)) return false;
+            if (node.piece_root && !visitor.begin_piece(node.box, node.simple, node.solid)) return false;
             if (node.in_piece && has_no_silhouette(tile, node)) {
                 at = node.skip;
                 continue;
@@ -254,8 +254,8 @@ class WedgeIndex {
         for (std::size_t e = 0; e < node.edge_count; ++e) {
             const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
             const Range left = ranges[edge.left], right = ranges[edge.right];
-            const int weight = std::max(left.most - right.least, right.most - left.least);
-            if (weight > 0 && !visitor.edge(edge.a, edge.b, weight)) return false;
+            const int least = left.least - right.most, most = left.most - right.least;
+            if ((least != 0 || most != 0) && !visitor.edge(edge.a, edge.b, least, most)) return false;
         }
         return true;
     }

@@ -46,9 +46,15 @@ void find_overlap(CandidateSearch<T>& search) {
 
 // --- penumbra wedges ----------------------------------------------------------------------------------------------
 
+inline bool are_exact(const PenumbraWedgeOptions& options) { return options.overlap == OverlapRule::exact; }
+/// Whether overlaps are left out point by point.
+inline bool decides_at_points(const PenumbraWedgeOptions& options) {
+    return options.overlap == OverlapRule::bitmask || are_exact(options);
+}
+
 template <class T>
 void find_candidates(const PenumbraWedgeOptions& full, CandidateSearch<T>& search) {
-    if (full.overlap == OverlapRule::bitmask) find_overlap(search);
+    if (decides_at_points(full)) find_overlap(search);
     if (full.silhouette == SilhouetteFrom::light_center) return;
     T loss = T(0);
     for (std::size_t i = 0; i < search.casters.size(); ++i)
@@ -60,14 +66,19 @@ inline void leave_out(Effect effect, PenumbraWedgeOptions& options) {
     if (effect == Effect::overlap) options.overlap = OverlapRule::additive;
     if (effect == Effect::silhouettes_per_point) options.silhouette = SilhouetteFrom::light_center;
 }
-inline bool decides_at_points(const PenumbraWedgeOptions& options) { return options.overlap == OverlapRule::bitmask; }
-
 // --- umbra volumes ------------------------------------------------------------------------------------------------
+
+inline bool are_exact(const UmbraVolumeOptions& options) {
+    return options.mode == DiskMode::edge_sum && options.overlap == DiskOverlap::exact;
+}
+inline bool decides_at_points(const UmbraVolumeOptions& options) {
+    return are_exact(options) || (options.mode == DiskMode::edge_sum && options.overlap == DiskOverlap::bitmask);
+}
 
 template <class T>
 void find_candidates(const UmbraVolumeOptions& full, CandidateSearch<T>& search) {
     if (full.mode == DiskMode::edge_sum) {
-        if (full.overlap == DiskOverlap::bitmask) find_overlap(search);
+        if (decides_at_points(full)) find_overlap(search);
         return;
     }
     if (full.layers == 2) search.add_of_images(Effect::second_layer);
@@ -78,10 +89,6 @@ inline void leave_out(Effect effect, UmbraVolumeOptions& options) {
     if (effect == Effect::second_layer) options.layers = 1;
     if (effect == Effect::volume_silhouette) options.silhouette = VolumeSilhouette::light_center;
 }
-inline bool decides_at_points(const UmbraVolumeOptions& options) {
-    return options.mode == DiskMode::edge_sum && options.overlap == DiskOverlap::bitmask;
-}
-
 // --- soft shadow maps ---------------------------------------------------------------------------------------------
 
 template <class T>

@@ -55,7 +55,8 @@ inline bool are_separable(const PenumbraWedgeOptions& options) {
            options.overlap == OverlapRule::product || options.overlap == OverlapRule::product_quadrants;
 }
 inline bool are_separable(const UmbraVolumeOptions& options) {
-    return options.mode == DiskMode::edge_sum && options.overlap != DiskOverlap::bitmask;
+    return options.mode == DiskMode::edge_sum && options.overlap != DiskOverlap::bitmask &&
+           options.overlap != DiskOverlap::exact;
 }
 inline bool are_separable(const OcclusionTextureOptions&) { return false; }
 inline bool are_separable(const SoftShadowMapOptions&) { return false; }
@@ -190,21 +191,25 @@ class Planner {
         detail::leave_out(candidate.effect, plan_.options);
     }
 
-    /// What is left of the tolerance is lost at a point either because masks are left out there or because a neighbour
-    /// answers for it, which it does only where nothing overlaps.
+    /// What is left of the tolerance is lost at a point because overlaps are left out there or because a neighbour
+    /// answers for it: either, where masks decide; for unions both, of which neighbours save more.
     void decide_at_points() {
         const T left = std::max(plan_.tolerance - plan_.bound, T(0));
+        T shared = left;
         if constexpr (std::is_same_v<Shadow, PenumbraWedgeShadow<T>> || std::is_same_v<Shadow, UmbraVolumeShadow<T>>) {
             if (decides_at_points(plan_.options)) {
-                plan_.options.tolerance = std::max(plan_.options.tolerance, static_cast<float>(std::min(left, T(1))));
+                const T overlap = are_exact(plan_.options) ? left * T(0.125) : left;
+                if (are_exact(plan_.options)) shared -= overlap;
+                plan_.options.tolerance =
+                    std::max(plan_.options.tolerance, static_cast<float>(std::min(overlap, T(1))));
                 for (auto& decision : plan_.decisions)
-                    if (decision.effect == Effect::overlap) decision.share = left;
+                    if (decision.effect == Effect::overlap) decision.share = overlap;
             }
         }
-        plan_.tile_tolerance = left;
+        plan_.tile_tolerance = shared;
         plan_.bound += left;
         plan_.decisions.push_back(
-            {Effect::every_point, true, T(1), left, "of neighbours that differ by up to %s one is asked", left});
+            {Effect::every_point, true, T(1), shared, "of neighbours that differ by up to %s one is asked", shared});
     }
 
     const Meshes& casters_;

@@ -14,6 +14,7 @@
 #include <penumbra/detail/variation.hpp>
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
+#include <penumbra/numeric.hpp>
 
 namespace penumbra {
 
@@ -85,7 +86,7 @@ class TileQuery {
         for (std::size_t q = 0; q < queries_; ++q) asked[q] = points[queried_[q]];
         shadow_.visibility(asked.data(), queries_, answered.data());
         for (std::size_t i = 0; i < count; ++i)
-            if (answered_by_[i] != none) result[i] = answered[answered_by_[i]];
+            if (answered_by_[i] != none) result[i] = saturate(answered[answered_by_[i]] + steps_[i]);
         return queries_;
     }
 
@@ -141,8 +142,10 @@ class TileQuery {
             std::fill_n(result_ + first, count, T(1));
             tell(first, count, PointAnswer::lit);
         } else if (variation.known && is_even(variation, box_ls)) {
+            set_slope(variation);
             for (std::size_t i = first; i < first + count; ++i) ask(i, first + count / 2);
         } else if (variation.known && count > 1 && tolerance_ > T(0)) {
+            set_slope(variation);
             share_answers(first, count, variation);
         } else if (tiles > 1) {
             for (std::size_t t = first_tile; t < first_tile + tiles; ++t) split(t, 1, all);
@@ -209,6 +212,11 @@ class TileQuery {
         }
     }
 
+    /// How visibility changes between points that share answers, in world space.
+    void set_slope(const Variation<T>& variation) {
+        const Vec3<T>& s = variation.slope;
+        slope_ = frame_.u * s.x + frame_.v * s.y + frame_.normal * s.z;
+    }
     /// Has a point answered by another's query, or its own.
     void ask(std::size_t point, std::size_t by) {
         if (asked_at_[by] == none) {
@@ -216,6 +224,7 @@ class TileQuery {
             queried_[queries_++] = static_cast<std::uint16_t>(by);
         }
         answered_by_[point] = asked_at_[by];
+        steps_[point] = point == by ? T(0) : glm::dot(slope_, points_[point] - points_[by]);
         tell(point, 1, point == by ? PointAnswer::own : PointAnswer::shared);
     }
     void tell(std::size_t first, std::size_t count, PointAnswer how) {
@@ -233,6 +242,8 @@ class TileQuery {
     std::array<T, parts * tile> x_{}, y_{}, z_{}, away_{};  ///< of points that share answers
     std::array<int, parts * tile> cell_{};
     std::array<std::uint16_t, most> asked_at_, answered_by_, queried_;  ///< of each point; of each query
+    std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
+    Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
 };
 

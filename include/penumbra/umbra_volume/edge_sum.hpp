@@ -16,6 +16,7 @@
 #include <penumbra/penumbra_wedge/blending.hpp>
 #include <penumbra/penumbra_wedge/caster_index.hpp>
 #include <penumbra/penumbra_wedge/mask_blending.hpp>
+#include <penumbra/penumbra_wedge/union_blending.hpp>
 #include <penumbra/umbra_volume/disk_coverage.hpp>
 #include <penumbra/umbra_volume/options.hpp>
 #include <vector>
@@ -96,20 +97,26 @@ class DiskEdgeSum {
                 case DiskOverlap::product:
                     return by_areas(Combination::product);
                 case DiskOverlap::bitmask:
+                    return blend_by_masks(casters_.index(), tile, light, bitmask_size_, tolerance_, may_give_up,
+                                          occlusion);
+                case DiskOverlap::exact:
                     break;
             }
-            return blend_by_masks(casters_.index(), tile, light, bitmask_size_, tolerance_, may_give_up, occlusion);
+            return blend_exactly(casters_.index(), tile, light, bitmask_size_, tolerance_, may_give_up, occlusion);
         });
     }
 
     /// See CasterIndex::variation().
     Variation<T> variation(const Box3<T>& box_ls, T radius, T most) const {
-        return casters_.variation(box_ls, pi<T> * radius * radius, most);
+        return casters_.variation(box_ls, pi<T> * radius * radius, most,
+                                  overlap_ == DiskOverlap::exact     ? OverlapChange::outline
+                                  : overlap_ == DiskOverlap::bitmask ? OverlapChange::none
+                                                                     : OverlapChange::sum);
     }
     std::size_t bytes() const { return casters_.index().bytes(); }
 
   private:
-    DiskOverlap overlap_ = DiskOverlap::bitmask;
+    DiskOverlap overlap_ = DiskOverlap::exact;
     int bitmask_size_ = 32;
     T tolerance_ = T(0);
     DiskCells mask_;

@@ -17,7 +17,8 @@ enum class DiskOverlap {
     additive,  ///< their sum, at most 1
     maximum,   ///< the largest
     product,   ///< as if each left its share of every part of the light
-    bitmask    ///< by masks of cells over the disk, which say how much is new
+    bitmask,   ///< by masks of cells over the disk, which say how much is new
+    exact      ///< the area of all together
 };
 
 /// V(t): what is visible behind a straight edge that leaves the share t of the diameter across it.
@@ -49,9 +50,12 @@ struct UmbraVolumeOptions {
     DiskMode mode = DiskMode::edge_sum;
 
     // sums over edges
-    DiskOverlap overlap = DiskOverlap::bitmask;
-    int bitmask_size = 32;  ///< cells along the light's diameter: 8, 16 or 32
-    /// Masks are left out where they can change visibility by no more, 0 to 1; half a cell in any case. plan() sets it.
+    DiskOverlap overlap = DiskOverlap::exact;
+    /// Cells along the light's diameter for DiskOverlap::bitmask, and for `exact` where a point sees more than 256 edges
+    /// before the light: 8, 16 or 32.
+    int bitmask_size = 32;
+    /// `bitmask` and `exact`: overlaps are left out where they can change visibility by no more, 0 to 1; by masks half a
+    /// cell in any case. plan() sets it.
     float tolerance = 0.0F;
 
     // D-buffers
