@@ -13,12 +13,12 @@ namespace {
 
 using Vec = Vec3<float>;
 
-/// Triangles between two neighbouring rings of vertices, a0 … a0 + an − 1 above b0 … b0 + bn − 1.
+/// Triangles between two neighbouring rings of vertices, a0 … a0 + an − 1 above b0 … b0 + bn − 1, without dents: sides
+/// of both rings in the order of the directions in which they look.
 void stitch(Mesh<float>& mesh, std::uint32_t a0, std::uint32_t an, std::uint32_t b0, std::uint32_t bn) {
-    // walk both rings by angle; each step makes one triangle
     for (std::uint64_t i = 0, j = 0; i < an || j < bn;) {
         const auto a = static_cast<std::uint32_t>(a0 + i % an), b = static_cast<std::uint32_t>(b0 + j % bn);
-        if (j == bn || (i < an && (i + 1) * bn <= (j + 1) * an)) {
+        if (j == bn || (i < an && (2 * i + 1) * bn <= (2 * j + 1) * an)) {
             ++i;
             mesh.triangles.emplace_back(a, b, static_cast<std::uint32_t>(a0 + i % an));
         } else {

@@ -21,7 +21,9 @@
 #include <penumbra/penumbra_wedge/caster_index.hpp>
 #include <penumbra/penumbra_wedge/clip.hpp>
 #include <penumbra/penumbra_wedge/coverage.hpp>
+#include <penumbra/penumbra_wedge/edge_union.hpp>
 #include <penumbra/penumbra_wedge/fixed_silhouettes.hpp>
+#include <penumbra/penumbra_wedge/interval_blending.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/mask_blending.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>
@@ -34,6 +36,7 @@
 #include <penumbra/penumbra_wedge/silhouette.hpp>
 #include <penumbra/penumbra_wedge/silhouette_variation.hpp>
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
+#include <penumbra/penumbra_wedge/union_blending.hpp>
 #include <penumbra/penumbra_wedge/wedge.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 #include <penumbra/penumbra_wedge/wedge_texels.hpp>

@@ -51,20 +51,41 @@ namespace rectangle_product {
 }  // namespace rectangle_product
 
 namespace bitmask_8 {
+#define PENUMBRA_PENUMBRA_WEDGE_OVERLAP PENUMBRA_OVERLAP_BITMASK
 #define PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE 8
 #include "as_cpp_query.hpp"
 }  // namespace bitmask_8
 
 namespace bitmask_16_center {
+#define PENUMBRA_PENUMBRA_WEDGE_OVERLAP PENUMBRA_OVERLAP_BITMASK
 #define PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE 16
 #define PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE PENUMBRA_SILHOUETTE_LIGHT_CENTER
 #include "as_cpp_query.hpp"
 }  // namespace bitmask_16_center
 
 namespace bitmask_tolerant {
+#define PENUMBRA_PENUMBRA_WEDGE_OVERLAP PENUMBRA_OVERLAP_BITMASK
 #define PENUMBRA_PENUMBRA_WEDGE_TOLERANCE 0.02f
 #include "as_cpp_query.hpp"
 }  // namespace bitmask_tolerant
+
+namespace exact {
+#define PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES 256
+#include "as_cpp_query.hpp"
+}  // namespace exact
+
+namespace exact_center {
+#define PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES 256
+#define PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE PENUMBRA_SILHOUETTE_LIGHT_CENTER
+#include "as_cpp_query.hpp"
+}  // namespace exact_center
+
+namespace exact_tolerant {
+#define PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES 256
+#define PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE 8
+#define PENUMBRA_PENUMBRA_WEDGE_TOLERANCE 0.02f
+#include "as_cpp_query.hpp"
+}  // namespace exact_tolerant
 
 }  // namespace glsl
 
@@ -151,7 +172,9 @@ TEST_CASE("visibility is that of the C++, bit for bit, by every rule") {
     compare<glsl::bitmask_8::WedgeQuery>();
     compare<glsl::bitmask_16_center::WedgeQuery>();
     compare<glsl::bitmask_tolerant::WedgeQuery>();
-    compare<glsl::WedgeQuery>();
+    compare<glsl::exact::WedgeQuery>();
+    compare<glsl::exact_center::WedgeQuery>();
+    compare<glsl::exact_tolerant::WedgeQuery>();
 }
 
 TEST_CASE("a query reads what is near the silhouette, not the mesh") {

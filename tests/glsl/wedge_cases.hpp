@@ -10,18 +10,21 @@
 
 namespace penumbra::test {
 
-/// What follows "#define ", for the GLSL.
-inline std::vector<std::string> wedge_defines(const PenumbraWedgeOptions& options) {
+/// What follows "#define ", for the GLSL; with room for as many edges as the C++ keeps, or for others.
+inline std::vector<std::string> wedge_defines(
+    const PenumbraWedgeOptions& options,
+    int union_edges = static_cast<int>(penumbra::detail::UnionBlender<float>::most_edges)) {
     const auto define = [](const char* name, int value) {
         return std::string("PENUMBRA_PENUMBRA_WEDGE_") + name + " " + std::to_string(value);
     };
     return {define("OVERLAP", static_cast<int>(options.overlap)),
             define("SILHOUETTE", static_cast<int>(options.silhouette)), define("BITMASK_SIZE", options.bitmask_size),
+            define("UNION_EDGES", union_edges),
             "PENUMBRA_PENUMBRA_WEDGE_TOLERANCE " + std::to_string(options.tolerance)};
 }
 inline std::string wedge_name(const PenumbraWedgeOptions& options) {
     constexpr const char* names[] = {"additive",   "maximum",   "product",           "quadrants",
-                                     "rectangles", "centroids", "rectangle product", "bitmask "};
+                                     "rectangles", "centroids", "rectangle product", "bitmask ", "exact"};
     return names[static_cast<int>(options.overlap)] +
            (options.overlap == OverlapRule::bitmask ? std::to_string(options.bitmask_size) : "") +
            (options.silhouette == SilhouetteFrom::point ? "" : ", from the light") +

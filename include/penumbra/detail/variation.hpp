@@ -15,6 +15,7 @@ struct Variation {
     Vec3<T> slope = Vec3<T>(T(0), T(0), T(0));   ///< for each world unit; 0 on a lit box
     Vec2<T> direction = Vec2<T>(T(1), T(0));     ///< across the light's axis, of unit length: where most is in doubt
     T along = T(0), across = T(0), deep = T(0);  ///< doubt for each world unit along it, across it, in depth, at most
+    T turning = T(0);                            ///< doubt between any two points
 
     static Variation unknown() { return {}; }
     static Variation all_lit() {
@@ -30,7 +31,7 @@ struct Variation {
     }
     /// Visibilities of two points of the box, that far apart in this frame, differ from the slope by at most this.
     T change(const Vec3<T>& turned_step) const {
-        return along * std::abs(turned_step.x) + across * std::abs(turned_step.y) + deep * std::abs(turned_step.z);
+        return turning + along * std::abs(turned_step.x) + across * std::abs(turned_step.y) + deep * std::abs(turned_step.z);
     }
 };
 

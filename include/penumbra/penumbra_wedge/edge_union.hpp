@@ -4,7 +4,7 @@
 // other in one order; going down, each begins or ends a silhouette, and is on the outline of all together where nothing
 // else covers what is above or below it. What lies of the light below the outline, signed, is the area. The order is
 // that at a strip's middle: where rounding takes two edges in the wrong order they are as good as one, so that the
-// result cannot jump. Source: ours.
+// result cannot jump; crossings that change no more than rounding are not looked for. Source: ours.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,11 @@
 
 namespace penumbra {
 
-/// The edges of up to `Capacity` that matter to one point, in any order, piece by piece.
+/// The edges of up to `Capacity` that matter to one point, in any order, piece by piece. Edges and box share a plane's
+/// coordinates, any unit; |coordinates| <= 1e18, a box with an area. Edges that are not finite give any area. Error
+/// for ends within some sizes of the box, in units of its area: 4 epsilon for up to 20 pieces of 15 edges (measured:
+/// 2.6e-7, 7e-15), and that of coordinates. Of more than 16 crossings an edge, on average, the last ones count for
+/// nothing. Time: edges times edges that lie above each other; the same for crossings.
 template <class T, std::size_t Capacity>
 class EdgeUnion {
   public:
@@ -30,11 +34,12 @@ class EdgeUnion {
     bool add(const detail::ColumnEdge<T>& e, int weight, const Rect2<T>& box) {
         if (!(e.x0 != e.x1) || weight == 0 || (e.y0 <= box.min.y && e.y1 <= box.min.y)) return true;
         if (count_ == Capacity) return false;
+        if (count_ == 0) least_ = penumbra::area(box) * (std::numeric_limits<T>::epsilon() * T(0.125));
         const bool ascends = e.x0 < e.x1, leftward = ascends != (e.sign > T(0));
         if (is_new_ || count_ == 0) ++pieces_, is_new_ = false;
         Edge& edge = edges_[count_++];
         edge.x0 = ascends ? e.x0 : e.x1, edge.y0 = ascends ? e.y0 : e.y1, edge.x1 = ascends ? e.x1 : e.x0;
-        edge.slope = (e.y1 - e.y0) / (e.x1 - e.x0);
+        edge.slope = detail::limit((e.y1 - e.y0) / detail::divisor(e.x1 - e.x0), -steepest, steepest);
         edge.piece = static_cast<std::uint16_t>(pieces_);
         edge.weight = static_cast<std::int16_t>(leftward ? weight : -weight);
         return true;
@@ -51,27 +56,28 @@ class EdgeUnion {
         std::fill_n(windings_.begin(), pieces_ + 1, std::int16_t(0));
         active_ = 0;
         T sum = T(0), x = T(0);
-        std::size_t next = 0, splits = 0;
-        while (next < count_ || active_ > 0) {
+        std::size_t next = 0, cuts = most_cuts * count_;
+        // strips end where an edge begins or ends, or are cut; no input makes this run on
+        for (std::size_t strips = 2 * count_ + cuts; strips > 0 && (next < count_ || active_ > 0); --strips) {
             if (active_ == 0) x = edges_[starts_[next]].x0;
             for (; next < count_ && !(edges_[starts_[next]].x0 > x); ++next) insert(starts_[next], x);
             T end = next < count_ ? edges_[starts_[next]].x0 : std::numeric_limits<T>::max();
             for (std::size_t k = 0; k < active_; ++k) end = std::min(end, edges_[order_[k].edge].x1);
-            for (int tries = 0; tries < most_tries; ++tries) {
+            sort(end);
+            for (T cut = first_crossing(x, end); cut < end && cuts > 0; cut = first_crossing(x, end)) {
+                end = cut, --cuts;
                 sort(end);
-                const T cut = splits < Capacity ? first_crossing(x, end) : end;
-                if (!(cut < end)) break;
-                end = cut, ++splits;
             }
-            sum += update_outline(x, below);
+            update_outline(x, below, sum);
             x = end;
-            sum += remove_until(x, below);
+            remove_until(x, below, sum);
         }
         return sum;
     }
 
   private:
-    static constexpr int most_tries = 4;
+    static constexpr std::size_t most_cuts = 16;  ///< an edge
+    static constexpr T steepest = T(1e30);
     struct Edge {
         T x0, y0, x1, slope;  ///< left to right
         std::uint16_t piece;
@@ -109,15 +115,16 @@ class EdgeUnion {
             if (to != k) order_[to] = moved;
         }
     }
-    /// Where in a strip the first neighbours cross, by more than rounding; `end` if none do.
+    /// Where in a strip the first neighbours cross that are worth it; `end` if none are.
     T first_crossing(T x, T end) const {
         T first = end;
-        const T least = (end - x) * T(1e-3);
         for (std::size_t k = 1; k < active_; ++k) {
             const T left = order_[k - 1].left - order_[k].left, right = order_[k - 1].right - order_[k].right;
             if (left >= T(0) && right >= T(0)) continue;
-            const T cut = x + (end - x) * (left / (left - right));
-            if (cut - x > least && end - cut > least) first = std::min(first, cut);
+            const T share = left / (left - right), width = end - x, cut = x + width * share;
+            // what is in the wrong order to one side of the crossing
+            const T wrong = width * std::min(std::abs(left) * share, std::abs(right) * (T(1) - share));
+            if (cut > x && cut < first && wrong > least_) first = cut;
         }
         return first;
     }
@@ -128,8 +135,7 @@ class EdgeUnion {
         return edge.side > 0 ? area : -area;
     }
     template <class Below>
-    T update_outline(T x, const Below& below) {
-        T sum = T(0);
+    void update_outline(T x, const Below& below, T& sum) {
         int covering = 0;
         for (std::size_t k = 0; k < active_; ++k) {
             Edge& edge = edges_[order_[k].edge];
@@ -142,11 +148,9 @@ class EdgeUnion {
             edge.side = side, edge.since = x;
         }
         for (std::size_t k = 0; k < active_; ++k) windings_[edges_[order_[k].edge].piece] = 0;
-        return sum;
     }
     template <class Below>
-    T remove_until(T x, const Below& below) {
-        T sum = T(0);
+    void remove_until(T x, const Below& below, T& sum) {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < active_; ++k) {
             const Active active = order_[k];
@@ -157,7 +161,6 @@ class EdgeUnion {
                 sum += emit(edge, edge.x1, below);
         }
         active_ = kept;
-        return sum;
     }
 
     std::array<Edge, Capacity> edges_;
@@ -166,6 +169,7 @@ class EdgeUnion {
     std::array<std::int16_t, Capacity + 1> windings_;
     std::size_t count_ = 0, pieces_ = 0, active_ = 0;
     bool is_new_ = false;
+    T least_ = T(0);  ///< area that is worth a strip
 };
 
 }  // namespace penumbra

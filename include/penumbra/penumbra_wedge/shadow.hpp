@@ -58,9 +58,12 @@ class PenumbraWedgeShadow {
         });
     }
 
-    /// How much visibility can change between points of a box in light space; unknown where it is more than `most`, and
-    /// by rules that are not right for casters which do not overlap.
-    Variation<T> variation(const Box3<T>& box_ls, T most) const {
+    /// How visibility changes between points of a box in light space; unknown where more than `most` is in doubt from
+    /// its middle to its corners, and by rules that are not right for casters which do not overlap. `points`, if not
+    /// null, are all that are asked about, in world space and in the box: so tiles on a face are told from its other
+    /// side.
+    Variation<T> variation(const Box3<T>& box_ls, T most, const Vec3<T>* points = nullptr,
+                           std::size_t count = 0) const {
         const OverlapRule rule = options_.overlap;
         if (rule != OverlapRule::exact && rule != OverlapRule::bitmask && rule != OverlapRule::additive)
             return Variation<T>::unknown();
@@ -68,7 +71,8 @@ class PenumbraWedgeShadow {
         return casters_.variation(box_ls, T(4) * half.x * half.y, most,
                                   rule == OverlapRule::exact     ? detail::OverlapChange::outline
                                   : rule == OverlapRule::bitmask ? detail::OverlapChange::none
-                                                                 : detail::OverlapChange::sum);
+                                                                 : detail::OverlapChange::sum,
+                                  points, count);
     }
 
     const Options& options() const { return options_; }

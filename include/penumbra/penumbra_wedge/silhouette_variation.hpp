@@ -16,9 +16,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <penumbra/detail/variation.hpp>
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
+#include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 
 namespace penumbra::detail {
@@ -34,7 +36,7 @@ enum class OverlapChange {
 template <class T>
 class SweptArea {
   public:
-    static constexpr std::size_t most_edges = 256;
+    static constexpr std::size_t most_edges = 256, most_pieces = 32;
 
     /// Gives up where what is in doubt is more than `most` as a point moves from the middle of the tile's box to its
     /// farthest corner, and where more than most_edges are in sight.
@@ -52,11 +54,12 @@ class SweptArea {
     }
 
     bool begin_piece(const Box3<T>& box, bool simple, bool solid) {
-        if (pieces_ < pieces_seen_.size()) {
+        if (pieces_ < most_pieces) {
             // IntervalBlender's rectangles overlap only where these do
             const bool beyond = box.max.z >= tile_.box.min.z;
             const Rect2<T> rect = beyond ? tile_.light : intersect(project_box(box, tile_.box), tile_.light);
-            SeenPiece& piece = pieces_seen_[pieces_] = {rect, from_point_ && simple, simple || solid};
+            SeenPiece& piece = pieces_seen_[pieces_] = {rect, from_point_ && simple, simple || solid, true, false, T(0), false,
+                                                           edges_, edges_};
             for (std::size_t k = 0; k < pieces_; ++k) {
                 if (is_apart(rect, pieces_seen_[k].rect)) continue;
                 piece.is_alone = pieces_seen_[k].is_alone = false;
@@ -65,29 +68,47 @@ class SweptArea {
             for (SeenPiece& piece : pieces_seen_) piece.is_alone = false;
         }
         ++pieces_;
-        return overlap_ != OverlapChange::none || (pieces_ <= pieces_seen_.size() && pieces_seen_[pieces_ - 1].is_alone);
+        return overlap_ != OverlapChange::none || (pieces_ <= most_pieces && is_exact(pieces_seen_[pieces_ - 1]));
     }
 
-    /// An edge that counts from `least` to `most` times.
-    bool edge(Vec3<T> a, Vec3<T> b, int least, int most) {
-        if (!clip(a, b, some_, T(1e-5))) return true;
+    /// A face that the points do not all see from one side. To take it as the middle does changes what its piece blocks
+    /// by no more than the triangle measures on the light.
+    void turn(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c, T distance) {
+        if (pieces_ > most_pieces) return;
+        const T least = tile_.box.min.z, p = tile_.box.max.z;
+        const T room_a = least - a.z, room_b = least - b.z, room_c = least - c.z;
+        SeenPiece& piece = pieces_seen_[pieces_ - 1];
+        piece.is_turned = piece.is_turned || !(std::min({room_a, room_b, room_c}) > T(4) * deep_);
+        if (piece.is_turned || !lands_on_light(a, b, c)) return;
+        const Vec3<T> normal = glm::cross(b - a, c - a);
+        piece.turning += std::sqrt(glm::dot(normal, normal)) * T(0.5) * distance * (p / room_a) * (p / room_b) / room_c;
+    }
+
+    /// An edge, and how often it counts.
+    bool edge(Vec3<T> a, Vec3<T> b, const CoefficientRange& coefficient) {
+        Part part = {T(0), T(1)};
+        if (!clip(a, b, some_, T(1e-5), part)) return true;
+        const Vec3<T> way = b - a;
+        b = a + way * part.last, a += way * part.first;
         const T room = tile_.box.min.z - std::max(a.z, b.z);
         if (!(room > T(4) * deep_) || edges_ == most_edges) return false;
-        const Sweep whole = sweep(a, b);
-        Vec3<T> from = a, to = b;
-        const T sure = clip(from, to, all_, T(-1e-5)) ? std::min(sweep(from, to).times / whole.times, T(1)) : T(0);
         SeenEdge& seen = seen_[edges_++];
-        seen.slope = whole.slope, seen.sure = sure > T(0) ? sure : T(0);
-        seen.least = static_cast<std::int8_t>(least), seen.most = static_cast<std::int8_t>(most);
-        seen.piece = static_cast<std::uint16_t>(std::min(pieces_, pieces_seen_.size() + 1) - 1);
-        bend(a, b, room, static_cast<T>(std::max(std::abs(least), std::abs(most))));
-        const Share share = share_of(seen);
-        doubt_ += half_length(share, seen.slope);
+        seen.a = a, seen.b = b, seen.whole = sweep(a, b);
+        find_inner_part(seen);
+        seen.hidden = T(0);
+        seen.coefficient = coefficient;
+        seen.piece = static_cast<std::uint16_t>(std::min(pieces_, most_pieces + 1) - 1);
+        if (pieces_ <= most_pieces) pieces_seen_[pieces_ - 1].end = edges_;
+        seen.shift = bend(a, b, room, static_cast<T>(std::max(std::abs(coefficient.least), std::abs(coefficient.most))));
+        const bool may_freeze = pieces_ <= most_pieces && is_sum(pieces_seen_[pieces_ - 1]);
+        if (!may_freeze || coefficient.least == coefficient.most)
+            doubt_ += half_length(share_of(seen), seen.whole.slope);
         return doubt_ + bending_ * across_ + deep_bending_ * deep_ <= most_;
     }
 
     /// As areas on the light.
-    Variation<T> result() const {
+    Variation<T> result() {
+        find_what_is_sure();
         if (pieces_ == 0) return Variation<T>::all_lit();
         Variation<T> result;
         result.known = true;
@@ -96,14 +117,16 @@ class SweptArea {
         std::array<Vec3<T>, most_edges> doubts;
         for (std::size_t e = 0; e < edges_; ++e) {
             const Share share = share_of(seen_[e]);
-            result.slope += seen_[e].slope * share.middle;
-            const Vec3<T> d = doubts[e] = seen_[e].slope * share.half;
+            result.slope += seen_[e].whole.slope * share.middle;
+            const Vec3<T> d = doubts[e] = seen_[e].whole.slope * share.half;
             xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
         }
         const T gap = std::sqrt((xx - yy) * (xx - yy) + T(4) * xy * xy);
         const Vec2<T> axis = xx > yy ? Vec2<T>(xx - yy + gap, T(2) * xy) : Vec2<T>(T(2) * xy, yy - xx + gap);
         const T size = std::sqrt(axis.x * axis.x + axis.y * axis.y);
         if (size > T(0)) result.direction = axis / size;
+        for (std::size_t k = 0; k < std::min(pieces_, most_pieces); ++k)
+            if (pieces_seen_[k].is_frozen) result.turning += T(2) * pieces_seen_[k].turning;
         result.along = result.across = bending_, result.deep = deep_bending_;
         for (std::size_t e = 0; e < edges_; ++e) {
             const Vec3<T> d = result.turned(doubts[e]);
@@ -117,32 +140,149 @@ class SweptArea {
     struct Sides {
         T right, left, top, bottom;
     };
+    /// A part of an edge, from one share of it to another.
+    struct Part {
+        T first, last;
+    };
     struct SeenPiece {
         Rect2<T> rect;
-        bool is_alone;  ///< covers nothing twice, nor what another piece covers
+        bool is_simple;      ///< covers nothing twice
         bool is_wound_once;  ///< winds around everything in the same sense
+        bool is_alone;       ///< covers nothing that another piece covers
+        bool is_turned;      ///< by a face that is too near to say what it measures on the light
+        T turning;           ///< faces that look here and there, as areas on the light
+        bool is_frozen;      ///< whether that is less than what their edges leave in doubt
+        std::size_t first, end;  ///< its edges
+    };
+    /// What an edge sweeps, seen from the middle.
+    struct Sweep {
+        Vec3<T> slope;           ///< per unit that the point moves
+        Vec2<T> from, to;        ///< where it lands
+        T speed_from, speed_to;  ///< r at its ends
+
+        /// What the slope is in proportion to, on the part from one share of the way to another.
+        T times(T first, T last) const {
+            return (last - first) * (speed_from + (speed_to - speed_from) * (first + last) * T(0.5));
+        }
     };
     struct SeenEdge {
-        Vec3<T> slope;  ///< what it sweeps, per unit, seen from the middle
-        T sure;         ///< the share of it that all points have before the light
-        std::int8_t least, most;
+        Vec3<T> a, b;        ///< its ends
+        Sweep whole;
+        T inner_first, inner_last;  ///< the part that all points have before the light
+        T sure;              ///< the share of its slope that counts in any case
+        T hidden;            ///< the share that other pieces may hide
+        T shift;             ///< how far it may be from where the middle sees it
+        CoefficientRange coefficient;
         std::uint16_t piece;
-    };
-    struct Sweep {
-        Vec3<T> slope;
-        T times;  ///< what the slope is in proportion to along an edge
     };
     /// The share of an edge's slope that counts: middle ± half.
     struct Share {
         T middle, half;
     };
 
+    static bool is_exact(const SeenPiece& piece) { return piece.is_simple && piece.is_alone; }
+    /// Whether what a piece blocks is the sum over its edges where no other piece is.
+    bool is_sum(const SeenPiece& piece) const {
+        return is_exact(piece) || (piece.is_simple && overlap_ == OverlapChange::outline);
+    }
+
+    /// What of each edge counts in any case, and what other pieces may hide; whether to take faces that turn as the
+    /// middle sees them, or their edges as in doubt.
+    void find_what_is_sure() {
+        if (pieces_ > most_pieces) {
+            for (SeenPiece& piece : pieces_seen_) piece.is_simple = false;
+            return;
+        }
+        std::array<T, most_pieces> doubts{};
+        for (std::size_t e = 0; e < edges_; ++e) {
+            SeenEdge& edge = seen_[e];
+            const SeenPiece& own = pieces_seen_[edge.piece];
+            if (!is_sum(own)) continue;
+            if (!own.is_alone) find_hidden_part(edge, own);
+            if (edge.coefficient.least != edge.coefficient.most)
+                doubts[edge.piece] += half_length(share_of(edge), edge.whole.slope);
+        }
+        for (std::size_t k = 0; k < pieces_; ++k) {
+            SeenPiece& piece = pieces_seen_[k];
+            piece.is_frozen = is_sum(piece) && !piece.is_turned && T(2) * piece.turning < doubts[k];
+        }
+    }
+    void find_hidden_part(SeenEdge& edge, const SeenPiece& own) const {
+        T in_whole = T(0), in_inner = T(0);
+        for (std::size_t k = 0; k < pieces_; ++k) {
+            const SeenPiece& other = pieces_seen_[k];
+            if (k == edge.piece || is_apart(own.rect, other.rect)) continue;
+            Part part = part_within(edge.whole, other.rect, edge.shift);
+            if (other.is_simple)
+                for (std::size_t e = other.first; e < other.end && part.first < part.last; ++e)
+                    cut_part_outside(edge, seen_[e], part);
+            if (!(part.first < part.last)) continue;
+            in_whole += edge.whole.times(part.first, part.last);
+            if (!(edge.sure > T(0))) continue;
+            // of the inner part, by lengths on the light
+            part.first = std::max(part.first, edge.inner_first), part.last = std::min(part.last, edge.inner_last);
+            if (part.first < part.last) in_inner += edge.whole.times(part.first, part.last);
+        }
+        const T all = edge.whole.times(T(0), T(1));
+        edge.hidden = saturated_ratio(in_whole, all);
+        edge.sure = clamp(edge.sure - saturated_ratio(in_inner, all), T(0), T(1) - edge.hidden);
+    }
+    /// What of an edge may land within a rectangle, or so much around it.
+    static Part part_within(const Sweep& edge, const Rect2<T>& rect, T around) {
+        Part part = {T(0), T(1)};
+        for (int k = 0; k < 2; ++k) {
+            const T from = edge.from[k], way = edge.to[k] - from;
+            const T low = rect.min[k] - around - from, high = rect.max[k] + around - from;
+            if (std::abs(way) * T(64) < around) {
+                if (low > std::max(way, T(0)) || high < std::min(way, T(0))) return {T(1), T(0)};
+                continue;
+            }
+            part.first = std::max(part.first, (way > T(0) ? low : high) / way);
+            part.last = std::min(part.last, (way > T(0) ? high : low) / way);
+        }
+        return part;
+    }
+    /// Leaves out what lies outside an edge of a convex piece, from wherever in the box: on which side of the plane
+    /// through three points a fourth one lies is linear in it.
+    void cut_part_outside(const SeenEdge& edge, const SeenEdge& border, Part& part) const {
+        const int sign = border.coefficient.least;
+        if (sign == 0 || sign != border.coefficient.most) return;
+        const Vec3<T> half = (tile_.box.max - tile_.box.min) * T(0.5), along = border.b - border.a;
+        const auto outside = [&](const Vec3<T>& at) {
+            const Vec3<T> normal = glm::cross(along, at - border.a), way = tile_.center - border.a;
+            constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
+            return static_cast<T>(-sign) * glm::dot(normal, way) - glm::dot(glm::abs(normal), half) -
+                   rounding * glm::length(along) * glm::length(way);
+        };
+        const T from = outside(edge.a), to = outside(edge.b);
+        if (from <= T(0) && to <= T(0)) return;
+        if (from > T(0) && to > T(0)) {
+            part.first = part.last;
+            return;
+        }
+        // the share of the edge, as the middle sees it land
+        const T near = tile_.center.z - edge.a.z, far = tile_.center.z - edge.b.z;
+        const T at = from / (from - to), landed = at * far / (near + (far - near) * at);
+        if (from > T(0))
+            part.first = std::max(part.first, landed);
+        else
+            part.last = std::min(part.last, landed);
+    }
+
     Share share_of(const SeenEdge& edge) const {
         const auto between = [](T low, T high) -> Share { return {(low + high) * T(0.5), (high - low) * T(0.5)}; };
-        T low = static_cast<T>(edge.least), high = static_cast<T>(edge.most);
-        const bool is_told = edge.piece < pieces_seen_.size();
-        if (is_told && pieces_seen_[edge.piece].is_alone)
-            return between(low > T(0) ? low * edge.sure : low, high < T(0) ? high * edge.sure : high);
+        T low = static_cast<T>(edge.coefficient.least), high = static_cast<T>(edge.coefficient.most);
+        const T middle = static_cast<T>(edge.coefficient.middle);
+        const bool is_told = edge.piece < most_pieces;
+        if (is_told && is_sum(pieces_seen_[edge.piece])) {
+            if (!pieces_seen_[edge.piece].is_frozen)
+                return between(low > T(0) ? low * edge.sure : std::min(low, T(0)),
+                               high < T(0) ? high * edge.sure : std::max(high, T(0)));
+            const T border = T(1) - edge.sure - edge.hidden;
+            return between(
+                middle * edge.sure + std::min(middle, T(0)) * border + std::min(low, T(0)) * edge.hidden,
+                middle * edge.sure + std::max(middle, T(0)) * border + std::max(high, T(0)) * edge.hidden);
+        }
         const T times = std::max(std::abs(low), std::abs(high));
         if (overlap_ != OverlapChange::outline) return {T(0), times};
         if (!from_point_ || !is_told || !pieces_seen_[edge.piece].is_wound_once) return {T(0), T(1)};
@@ -158,13 +298,28 @@ class SweptArea {
         const T ra = a.z / (p.z - a.z), rb = b.z / (p.z - b.z);
         const Vec2<T> from = Vec2<T>(a.x - p.x, a.y - p.y) * (T(1) + ra), to = Vec2<T>(b.x - p.x, b.y - p.y) * (T(1) + rb);
         const Vec2<T> out(to.y - from.y, from.x - to.x);
-        const T mean = (ra + rb) * T(0.5);
-        return {Vec3<T>(out.x, out.y, (out.x * from.x + out.y * from.y) / p.z) * -mean,
-                mean * std::sqrt(out.x * out.x + out.y * out.y)};
+        const Vec2<T> at(p.x, p.y);
+        return {Vec3<T>(out.x, out.y, (out.x * from.x + out.y * from.y) / p.z) * (T(-0.5) * (ra + rb)), from + at,
+                to + at, ra, rb};
+    }
+    /// Whether a triangle may hide any of the light from a point of the box.
+    bool lands_on_light(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) const {
+        const Vec3<T>& p = tile_.center;
+        Rect2<T> rect = empty_rect<T>();
+        T around = T(0);
+        for (const Vec3<T>& v : {a, b, c}) {
+            const T r = v.z / (tile_.box.min.z - v.z), x = v.x - p.x, y = v.y - p.y;
+            const T grown = p.z / (p.z - v.z), reach = (std::sqrt(x * x + y * y) + across_) * (T(1) + r);
+            rect = extend(rect, Vec2<T>(p.x + x * grown, p.y + y * grown));
+            around = std::max(around, r * (across_ + reach / tile_.box.min.z * deep_));
+        }
+        const Rect2<T>& light = tile_.light;
+        return rect.min.x - around < light.max.x && rect.max.x + around > light.min.x &&
+               rect.min.y - around < light.max.y && rect.max.y + around > light.min.y;
     }
     /// By how much the slope may differ anywhere in the box: bounds of r, its change along the edge, the length on the
-    /// light and the distance from there, then their derivatives.
-    void bend(const Vec3<T>& a, const Vec3<T>& b, T room, T times) {
+    /// light and the distance from there, then their derivatives. Returns how far the edge may be shifted.
+    T bend(const Vec3<T>& a, const Vec3<T>& b, T room, T times) {
         const Vec3<T>& p = tile_.center;
         const T least = tile_.box.min.z, z = std::max(a.z, b.z), r = z / room;
         const T room_a = least - a.z, room_b = least - b.z;
@@ -176,28 +331,34 @@ class SweptArea {
         const T by_depth = r * (length / room + (length * r + reach * uneven) / least);
         bending_ += times * (r * uneven * across_ + by_depth * deep_);
         deep_bending_ += times * (r * grown * grown * span * across_ + T(4) * r * length * reach / room * deep_) / least;
+        return r * across_ + r * reach / least * deep_;
     }
 
+    void find_inner_part(SeenEdge& edge) const {
+        Part part = {T(0), T(1)};
+        const bool has_inner = clip(edge.a, edge.b, all_, T(-1e-5), part);
+        const T near = tile_.center.z - edge.a.z, far = tile_.center.z - edge.b.z;
+        const auto landed = [&](T at) { return at * far / (near + (far - near) * at); };
+        edge.inner_first = landed(part.first), edge.inner_last = landed(part.last);
+        edge.sure = has_inner ? saturated_ratio(edge.whole.times(edge.inner_first, edge.inner_last),
+                                                edge.whole.times(T(0), T(1)))
+                              : T(0);
+    }
     /// The part of an edge between the sides, `slack` of its length longer at both ends. False if there is none.
-    bool clip(Vec3<T>& a, Vec3<T>& b, const Sides& sides, T slack) const {
+    bool clip(const Vec3<T>& a, const Vec3<T>& b, const Sides& sides, T slack, Part& part) const {
         const Vec2<T> half = tile_.light.max;
         const std::array<Vec3<T>, 6> inside = {{Vec3<T>(T(-1), T(0), sides.right), Vec3<T>(T(1), T(0), -sides.left),
                                                 Vec3<T>(T(0), T(-1), sides.top), Vec3<T>(T(0), T(1), -sides.bottom),
                                                 Vec3<T>(T(0), T(0), T(1)), Vec3<T>(T(0), T(0), T(-1))}};
         const std::array<T, 6> offset = {{half.x, half.x, half.y, half.y, T(0), tile_.box.max.z}};
-        T first = T(0), last = T(1);
         for (std::size_t k = 0; k < inside.size(); ++k) {
             const T at_a = glm::dot(inside[k], a) + offset[k], at_b = glm::dot(inside[k], b) + offset[k];
             if (at_a < T(0) && at_b < T(0)) return false;
-            if (at_a < T(0)) first = std::max(first, at_a / (at_a - at_b));
-            if (at_b < T(0)) last = std::min(last, at_a / (at_a - at_b));
+            if (at_a < T(0)) part.first = std::max(part.first, at_a / (at_a - at_b));
+            if (at_b < T(0)) part.last = std::min(part.last, at_a / (at_a - at_b));
         }
-        first -= slack, last += slack;
-        if (!(first < last)) return false;
-        const Vec3<T> from = a, way = b - a;
-        a = from + way * std::max(first, T(0));
-        b = from + way * std::min(last, T(1));
-        return true;
+        part.first = std::max(part.first - slack, T(0)), part.last = std::min(part.last + slack, T(1));
+        return part.first < part.last;
     }
     static bool is_apart(const Rect2<T>& a, const Rect2<T>& b) {
         const Rect2<T> both = intersect(a, b);
@@ -211,23 +372,50 @@ class SweptArea {
     Sides some_, all_;
     T doubt_ = T(0), bending_ = T(0), deep_bending_ = T(0);
     std::size_t pieces_ = 0, edges_ = 0;
-    std::array<SeenPiece, 32> pieces_seen_;
+    std::array<SeenPiece, most_pieces> pieces_seen_;
     std::array<SeenEdge, most_edges> seen_;
+};
+
+/// Points of a box, brought to an index's units when they are needed.
+template <class T>
+class BoxPoints {
+  public:
+    static constexpr std::size_t capacity = 256;
+
+    /// `points` in world space; null or more than fit: none.
+    BoxPoints(const Vec3<T>* points, std::size_t count, const LightFrame<T>& frame, T scale)
+        : points_(points), count_(points != nullptr && count <= capacity ? count : 0), frame_(frame), scale_(scale) {}
+
+    std::size_t size() const { return count_; }
+    const Vec3<T>& operator[](std::size_t i) const {
+        if (!is_ready_)
+            for (std::size_t k = 0; k < count_; ++k) in_light_[k] = to_scaled_light(frame_, points_[k], scale_);
+        is_ready_ = true;
+        return in_light_[i];
+    }
+
+  private:
+    const Vec3<T>* points_;
+    std::size_t count_;
+    const LightFrame<T>& frame_;
+    T scale_;
+    mutable bool is_ready_ = false;
+    mutable std::array<Vec3<T>, capacity> in_light_;
 };
 
 /// For casters seen from a box, all in the index's units; changes for each of these units. Unknown where masks would
 /// decide, where casters are as near as the box is deep, and where from the box's middle to its corners more than `most`
 /// is in doubt. Error: that of the sums.
 template <class T>
-Variation<T> silhouette_variation(const WedgeIndex<T>& index, const Box3<T>& box, const Vec2<T>& half_size,
-                                  T light_area, T most, OverlapChange overlap) {
+Variation<T> silhouette_variation(const WedgeIndex<T>& index, const Box3<T>& box, const BoxPoints<T>& points,
+                                  const Vec2<T>& half_size, T light_area, T most, OverlapChange overlap) {
     PointTile<T> tile;
     tile.cover(box, half_size);
     SweptArea<T> swept(tile, most * light_area, overlap, index.silhouette() == SilhouetteFrom::point);
-    if (!index.visit_candidates(tile, swept)) return Variation<T>::unknown();
+    if (!index.visit_candidates(tile, points, swept)) return Variation<T>::unknown();
     Variation<T> result = swept.result();
     const T unit = T(1) / light_area;
-    result.along *= unit, result.across *= unit, result.deep *= unit;
+    result.along *= unit, result.across *= unit, result.deep *= unit, result.turning *= unit;
     result.slope *= -unit;  // of what is visible
     return result;
 }

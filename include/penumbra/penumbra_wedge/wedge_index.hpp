@@ -23,6 +23,11 @@
 
 namespace penumbra {
 
+/// How often a face or an edge counts for points of a box: at least, at most, and for the box's middle.
+struct CoefficientRange {
+    int least, most, middle;
+};
+
 /// Built once; queried from any number of threads, without allocation.
 template <class T>
 class WedgeIndex {
@@ -77,11 +82,14 @@ class WedgeIndex {
     }
 
     /// For all points of a tile's box: calls visitor.begin_piece(box, simple, solid) for pieces that may reach into
-    /// their pyramids, and visitor.edge(a, b, least, most) for every edge there, and some beside, that may be on the
-    /// silhouette from any of them: its coefficient is between these. Stops where the visitor answers false, and at a
-    /// face that the box may lie on both sides of. Returns whether it did not.
-    template <class Visitor>
-    bool visit_candidates(const PointTile<T>& tile, Visitor& visitor) const {
+    /// their pyramids, and visitor.edge(a, b, coefficient) for every edge there, and some beside, that may be on the
+    /// silhouette from any of them, with the CoefficientRange of its coefficient; before them turn(a, b, c, distance) for
+    /// faces that may look at some points from one side and at some from the other, none of which is farther from the
+    /// face's plane. Stops where the visitor answers false, and at a
+    /// face that the points may lie on both sides of. Returns whether it did not. `points`, if not empty, are those of
+    /// the box that matter: size() and [i], in light space.
+    template <class Visitor, class Points>
+    bool visit_candidates(const PointTile<T>& tile, const Points& points, Visitor& visitor) const {
         const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
         for (std::uint32_t at = 0; at < end;) {
             const Node& node = tree_.nodes[at];
@@ -95,7 +103,7 @@ class WedgeIndex {
                 at = node.skip;
                 continue;
             }
-            if (node.edge_count > 0 && !visit_candidates_of(tile, node, visitor)) return false;
+            if (node.edge_count > 0 && !visit_candidates_of(tile, points, node, visitor)) return false;
             ++at;
         }
         return true;
@@ -223,40 +231,67 @@ class WedgeIndex {
         return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y &&
                a.min.z <= b.max.z && a.max.z >= b.min.z;
     }
-    template <class Visitor>
-    bool visit_candidates_of(const PointTile<T>& tile, const Node& node, Visitor& visitor) const {
-        struct Range {
-            int least, most;
-        };
+    template <class Visitor, class Points>
+    bool visit_candidates_of(const PointTile<T>& tile, const Points& points, const Node& node,
+                             Visitor& visitor) const {
+        using Range = CoefficientRange;
         std::array<Range, Coefficients::most> ranges;
-        ranges[0] = {0, 0}, ranges[1] = {-1, -1};
+        ranges[0] = {0, 0, 0}, ranges[1] = {-1, -1, -1};
         for (std::size_t f = 0; f < node.face_count; ++f) {
             const Face& face = tree_.faces[node.first_face + f];
             Range& range = ranges[f + 2];
-            range = {0, 0};
+            range = {0, 0, 0};
             if (face.depth_min >= tile.box.max.z) continue;  // beyond all points
             const T middle = glm::dot(face.normal, tile.center - face.a);
             const T room = spread(tile, glm::abs(face.normal), glm::abs(tile.center - face.a));
             const bool away_all = middle + room<-tolerance_, away_none = middle - room> - tolerance_;
-            const bool front_all = middle - room > tolerance_,
-                       one_side = away_all || (face.solid ? away_none : front_all);
-            if (!one_side && overlaps(tile.box, box_of(face))) return false;
-            if (from_ == SilhouetteFrom::light_center) {
-                range = {face.from_light, face.from_light};
-                if (touches(tile, box_of(face)) && !away_all && !front_all)
-                    range = {std::min<int>(face.from_light, 0), std::max<int>(face.from_light, 0)};
-            } else if (face.solid) {
-                range = {away_none ? 0 : -1, away_all ? -1 : 0};
-            } else {
-                range = {front_all ? 1 : away_none ? 0 : -1, away_all ? -1 : 1};
+            const bool front_all = middle - room > tolerance_;
+            if (away_all || (face.solid ? away_none : front_all)) {
+                range = range_of(face, away_all, front_all);
+            } else if (!find_range(face, points, range)) {
+                if (overlaps(tile.box, box_of(face))) return false;
+                const int fixed = face.from_light;
+                if (from_ == SilhouetteFrom::point)
+                    range = {face.solid || !away_none ? -1 : 0, face.solid ? 0 : 1,
+                             static_cast<int>(coefficient_of(face, middle))};
+                else if (touches(tile, box_of(face)))
+                    range = {std::min(fixed, 0), std::max(fixed, 0), fixed};
+                else
+                    range = {fixed, fixed, fixed};
+                if (f < node.owned_faces && range.least != range.most)
+                    visitor.turn(face.a, face.b, face.c, std::abs(middle) + room);
             }
         }
         for (std::size_t e = 0; e < node.edge_count; ++e) {
             const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
             const Range left = ranges[edge.left], right = ranges[edge.right];
-            const int least = left.least - right.most, most = left.most - right.least;
-            if ((least != 0 || most != 0) && !visitor.edge(edge.a, edge.b, least, most)) return false;
+            const Range range = {left.least - right.most, left.most - right.least, left.middle - right.middle};
+            if ((range.least != 0 || range.most != 0) && !visitor.edge(edge.a, edge.b, range)) return false;
         }
+        return true;
+    }
+    /// How a face counts that all points look at from one side, or edge-on.
+    CoefficientRange range_of(const Face& face, bool away, bool front) const {
+        const bool from_light = from_ == SilhouetteFrom::light_center, seen = away || front;
+        const int count = from_light ? (seen ? face.from_light : 0) : away ? -1 : front && !face.solid ? 1 : 0;
+        return {count, count, count};
+    }
+    /// Whether each of the points looks at a face from the same side, by more than rounding, and how it counts then.
+    template <class Points>
+    bool find_range(const Face& face, const Points& points, CoefficientRange& range) const {
+        const T most = tolerance_ * T(1.0625), least = tolerance_ * T(0.9375);
+        const bool is_solid = face.solid && from_ == SilhouetteFrom::point;
+        bool away = true, front = true, not_away = true, edge_on = true;
+        const auto include = [&](const Vec3<T>& point) {
+            const T distance = glm::dot(face.normal, point - face.a);
+            away = away && distance < -most, front = front && distance > most;
+            not_away = not_away && distance > -least, edge_on = edge_on && std::abs(distance) < least;
+            return away || front || edge_on || (is_solid && not_away);
+        };
+        if (points.size() == 0 || !include(points[0]) || !include(points[points.size() - 1])) return false;
+        for (std::size_t i = 1; i + 1 < points.size(); ++i)
+            if (!include(points[i])) return false;
+        range = range_of(face, away, front);
         return true;
     }
     static Box3<T> box_of(const Face& face) { return extend(extend(extend(empty_box<T>(), face.a), face.b), face.c); }

@@ -70,7 +70,9 @@ class PlannedShadow {
     /// light from any of them, or it cannot change by more than the plan allows between them, few are asked.
     /// `answers`, if not null, is told how each came by its visibility.
     void visibility(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers = nullptr) const {
-        const auto vary = [&](const Box3<T>& box_ls, T most) { return variation(box_ls, most); };
+        const auto vary = [&](const Box3<T>& box_ls, T most, const Vec3<T>* tile, std::size_t size) {
+            return variation(box_ls, most, tile, size);
+        };
         detail::TileQuery<T, Shadow, decltype(vary)>(shadow_, vary, frame_, plan_.tile_tolerance)(points, count, result,
                                                                                                   answers);
     }
@@ -99,11 +101,14 @@ class PlannedShadow {
             if (i < casters.size()) extents.casters.push_back(detail::seen_box(casters[i], frame_));
         lit_test_ = detail::LitTest<T>(extents, texel);
     }
-    Variation<T> variation(const Box3<T>& box_ls, T most) const {
+    Variation<T> variation(const Box3<T>& box_ls, T most, const Vec3<T>* points, std::size_t count) const {
         if constexpr (std::is_same_v<Shadow, SoftShadowMap<T>>) {
             return lit_test_(box_ls);
         } else if constexpr (std::is_same_v<Shadow, UmbraVolumeShadow<T>>) {
-            return plan_.options.mode == DiskMode::d_buffer ? lit_test_(box_ls) : shadow_.variation(box_ls, most);
+            return plan_.options.mode == DiskMode::d_buffer ? lit_test_(box_ls)
+                                                            : shadow_.variation(box_ls, most, points, count);
+        } else if constexpr (std::is_same_v<Shadow, PenumbraWedgeShadow<T>>) {
+            return shadow_.variation(box_ls, most, points, count);
         } else {
             return shadow_.variation(box_ls, most);
         }

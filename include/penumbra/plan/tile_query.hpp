@@ -28,7 +28,7 @@ enum class PointAnswer : std::uint8_t {
 namespace detail {
 
 /// One batch. `Shadow` has visibility(points, count, result); `Vary`, a callable, has the Variation of a box in light
-/// space, given what more than which need not be known.
+/// space, given what more than which need not be known, and the points.
 template <class T, class Shadow, class Vary>
 class TileQuery {
   public:
@@ -54,6 +54,7 @@ class TileQuery {
 
   private:
     static constexpr std::size_t most = 1024, tile = 64, parts = 4;
+    static constexpr int most_cells = 16;  ///< along an axis, in which points share answers
     static constexpr std::uint16_t none = 0xffff;
     static constexpr T smallest = T(1e-30);    ///< what extents are taken for that are none
     static constexpr T worth_sharing = T(12);  ///< in tolerances, from a box's middle to its corners
@@ -137,14 +138,15 @@ class TileQuery {
         const std::size_t first = first_tile * tile, count = std::min(tiles * tile, all - first);
         const Box3<T> box_ls = seen(box);
         Variation<T> variation;
-        if (box_ls.min.z > T(0)) variation = vary_(box_ls, worth_sharing * tolerance_);
+        if (box_ls.min.z > T(0)) variation = vary_(box_ls, worth_sharing * tolerance_, points_ + first, count);
         if (variation.known && variation.lit) {
             std::fill_n(result_ + first, count, T(1));
             tell(first, count, PointAnswer::lit);
-        } else if (variation.known && is_even(variation, box_ls)) {
+        } else if (variation.known && doubt(variation, box_ls) <= tolerance_) {
             set_slope(variation);
             for (std::size_t i = first; i < first + count; ++i) ask(i, first + count / 2);
-        } else if (variation.known && count > 1 && tolerance_ > T(0)) {
+        } else if (variation.known && count > 1 && tolerance_ > T(0) &&
+                   (tiles == 1 || doubt(variation, box_ls) <= T(4) * tolerance_)) {
             set_slope(variation);
             share_answers(first, count, variation);
         } else if (tiles > 1) {
@@ -154,12 +156,11 @@ class TileQuery {
         }
     }
 
-    /// Whether any point of the box may answer for all.
-    bool is_even(const Variation<T>& variation, const Box3<T>& box_ls) const {
+    /// By how much two points of the box may differ from the slope.
+    static T doubt(const Variation<T>& variation, const Box3<T>& box_ls) {
         const Vec3<T> size = box_ls.max - box_ls.min;
         const Vec2<T> d(std::abs(variation.direction.x), std::abs(variation.direction.y));
-        return variation.change(Vec3<T>(size.x * d.x + size.y * d.y, size.x * d.y + size.y * d.x, size.z)) <=
-               tolerance_;
+        return variation.change(Vec3<T>(size.x * d.x + size.y * d.y, size.x * d.y + size.y * d.x, size.z));
     }
 
     /// Puts the points into cells in which visibility changes by no more than the tolerance from the middle to a side,
@@ -184,10 +185,10 @@ class TileQuery {
             return Vec2<T>(low, high);
         };
         const Vec2<T> in_x = range(x), in_y = range(y), in_z = range(z);
-        const T left = std::max(tolerance_ - variation.deep * (in_z.y - in_z.x) * T(0.5), T(1e-3) * tolerance_);
-        const auto cells_of = [&](T change) { return static_cast<int>(clamp(change / left, T(0), T(15))) + 1; };
-        const int columns = cells_of(variation.along * (in_x.y - in_x.x)),
-                  rows = cells_of(variation.across * (in_y.y - in_y.x));
+        const T left = std::max(tolerance_ - variation.turning - variation.deep * (in_z.y - in_z.x) * T(0.5),
+                                T(1e-3) * tolerance_);
+        const Cells cells = fewest_cells(variation.along * (in_x.y - in_x.x), variation.across * (in_y.y - in_y.x), left);
+        const int columns = cells.columns, rows = cells.rows;
         const T width = std::max(in_x.y - in_x.x, smallest) / static_cast<T>(columns);
         const T height = std::max(in_y.y - in_y.x, smallest) / static_cast<T>(rows);
         const T per_width = T(1) / width, per_height = T(1) / height, middle_z = (in_z.x + in_z.y) * T(0.5);
@@ -199,7 +200,7 @@ class TileQuery {
             const T from_y = y[i] - (in_y.x + height * (static_cast<T>(row) + T(0.5)));
             away[i] = variation.change(Vec3<T>(from_x, from_y, z[i] - middle_z));
         }
-        std::array<std::uint16_t, 256> chosen;
+        std::array<std::uint16_t, most_cells * most_cells> chosen;
         std::fill_n(chosen.begin(), columns * rows, none);
         for (std::size_t i = 0; i < count; ++i) {
             std::uint16_t& one = chosen[static_cast<std::size_t>(cell[i])];
@@ -212,6 +213,22 @@ class TileQuery {
         }
     }
 
+    struct Cells {
+        int columns, rows;
+    };
+    /// Cells from whose middles to corners no more than `most` is in doubt, of what is from side to side.
+    static Cells fewest_cells(T along, T across, T most) {
+        Cells best = {most_cells, most_cells};
+        for (int rows = 1; rows <= most_cells; ++rows) {
+            const T rest = T(2) * most - across / static_cast<T>(rows);
+            if (!(rest > T(0))) continue;
+            const T columns = along / rest;
+            if (!(columns < static_cast<T>(most_cells))) continue;
+            const Cells cells = {static_cast<int>(columns) + 1, rows};
+            if (cells.columns * cells.rows < best.columns * best.rows) best = cells;
+        }
+        return best;
+    }
     /// How visibility changes between points that share answers, in world space.
     void set_slope(const Variation<T>& variation) {
         const Vec3<T>& s = variation.slope;

@@ -58,10 +58,11 @@ class UmbraVolumeShadow {
 
     /// How much visibility can change between points of a box in light space; unknown where it is more than `most`, and
     /// for D-buffers, whose answers change from texel to texel.
-    Variation<T> variation(const Box3<T>& box_ls, T most) const {
+    Variation<T> variation(const Box3<T>& box_ls, T most, const Vec3<T>* points = nullptr,
+                           std::size_t count = 0) const {
         const bool is_exact = options_.mode == DiskMode::edge_sum && options_.overlap != DiskOverlap::maximum &&
                               options_.overlap != DiskOverlap::product;
-        return is_exact ? edge_sum_.variation(box_ls, radius_, most) : Variation<T>::unknown();
+        return is_exact ? edge_sum_.variation(box_ls, radius_, most, points, count) : Variation<T>::unknown();
     }
 
     const Options& options() const { return options_; }

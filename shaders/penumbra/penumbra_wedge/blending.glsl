@@ -1,8 +1,8 @@
 // From the edges that matter to a point to what all silhouettes block together, by any rule.
 //
-// Options: PENUMBRA_PENUMBRA_WEDGE_OVERLAP  how what several meshes block combines; PENUMBRA_OVERLAP_BITMASK (default),
+// Options: PENUMBRA_PENUMBRA_WEDGE_OVERLAP  how what several meshes block combines; PENUMBRA_OVERLAP_EXACT (default),
 //                                           _ADDITIVE, _MAXIMUM, _PRODUCT, _PRODUCT_QUADRANTS, _RECTANGLES,
-//                                           _RECTANGLES_CENTROID or _RECTANGLE_PRODUCT
+//                                           _RECTANGLES_CENTROID, _RECTANGLE_PRODUCT or _BITMASK
 // Error:   that of the method
 // Source:  V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006
 // C++:     include/penumbra/penumbra_wedge/blending.hpp
@@ -10,8 +10,8 @@
 #define PENUMBRA_PENUMBRA_WEDGE_BLENDING_GLSL
 
 #include "../combine.glsl"
-#include "mask_blending.glsl"
 #include "overlap.glsl"
+#include "union_blending.glsl"
 
 #define PENUMBRA_OVERLAP_ADDITIVE 0
 #define PENUMBRA_OVERLAP_MAXIMUM 1
@@ -21,9 +21,10 @@
 #define PENUMBRA_OVERLAP_RECTANGLES_CENTROID 5
 #define PENUMBRA_OVERLAP_RECTANGLE_PRODUCT 6
 #define PENUMBRA_OVERLAP_BITMASK 7
+#define PENUMBRA_OVERLAP_EXACT 8
 
 #ifndef PENUMBRA_PENUMBRA_WEDGE_OVERLAP
-#define PENUMBRA_PENUMBRA_WEDGE_OVERLAP PENUMBRA_OVERLAP_BITMASK
+#define PENUMBRA_PENUMBRA_WEDGE_OVERLAP PENUMBRA_OVERLAP_EXACT
 #endif
 
 #if PENUMBRA_PENUMBRA_WEDGE_OVERLAP == PENUMBRA_OVERLAP_PRODUCT_QUADRANTS
@@ -142,8 +143,8 @@ float penumbra_blend_by_rectangle_product(highp sampler2D wedges, penumbra_Wedge
 
 // What all casters together block of the light from a point, in [0, 1].
 float penumbra_blend(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p) {
-#if PENUMBRA_PENUMBRA_WEDGE_OVERLAP == PENUMBRA_OVERLAP_BITMASK
-    return penumbra_blend_by_masks(wedges, info, p);
+#if PENUMBRA_PENUMBRA_WEDGE_OVERLAP >= PENUMBRA_OVERLAP_BITMASK
+    return penumbra_blend_silhouettes(wedges, info, p, PENUMBRA_PENUMBRA_WEDGE_OVERLAP == PENUMBRA_OVERLAP_EXACT);
 #elif PENUMBRA_PENUMBRA_WEDGE_OVERLAP == PENUMBRA_OVERLAP_RECTANGLE_PRODUCT
     return penumbra_blend_by_rectangle_product(wedges, info, p);
 #elif PENUMBRA_PENUMBRA_WEDGE_OVERLAP >= PENUMBRA_OVERLAP_RECTANGLES

@@ -6,9 +6,11 @@
 //
 // Options: PENUMBRA_PENUMBRA_WEDGE_OVERLAP: see blending.glsl
 //          PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl
-//          PENUMBRA_PENUMBRA_WEDGE_TOLERANCE: see mask_blending.glsl
+//          PENUMBRA_PENUMBRA_WEDGE_TOLERANCE: see union_blending.glsl
+//          PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES: see edge_union.glsl
 //          PENUMBRA_PENUMBRA_WEDGE_SILHOUETTE: see wedge_index.glsl
-// Error:   that of the method; 2e-6 from the C++, and one cell of a mask where a middle lies on an edge to rounding
+// Error:   that of the method; 2e-6 from the C++, and one cell of a mask where a middle lies on an edge to rounding;
+//          masks where a point has more edges than fit
 // Source:  V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006
 // C++:     include/penumbra/penumbra_wedge/shadow.hpp
 #ifndef PENUMBRA_PENUMBRA_WEDGE_SHADOW_GLSL

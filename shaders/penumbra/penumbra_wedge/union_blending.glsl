@@ -1,14 +1,18 @@
-// What all silhouettes block together by masks, where intervals do not say it already.
+// What all silhouettes block together: exactly by their edges or by masks, where intervals do not say it already.
 //
-// Options: PENUMBRA_PENUMBRA_WEDGE_TOLERANCE  masks are left out where they can change visibility by no more, 0
-//                                             (default) to 1; half a cell in any case
+// Options: PENUMBRA_PENUMBRA_WEDGE_TOLERANCE  overlaps are left out where they can change visibility by no more, 0
+//                                             (default) to 1; by masks half a cell in any case
+//          PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES: see edge_union.glsl
 //          PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE: see bitmask.glsl
-// Error:   that of the method; decides as the C++ where the rounding of divisions is the same
-// C++:     include/penumbra/penumbra_wedge/mask_blending.hpp
-#ifndef PENUMBRA_PENUMBRA_WEDGE_MASK_BLENDING_GLSL
-#define PENUMBRA_PENUMBRA_WEDGE_MASK_BLENDING_GLSL
+// Error:   that of the method; decides as the C++ where the rounding of divisions is the same, and where a point has
+//          more edges than fit here, but not there, that of masks
+// C++:     include/penumbra/penumbra_wedge/union_blending.hpp
+//          with what it stands on: interval_blending.hpp and mask_blending.hpp beside it
+#ifndef PENUMBRA_PENUMBRA_WEDGE_UNION_BLENDING_GLSL
+#define PENUMBRA_PENUMBRA_WEDGE_UNION_BLENDING_GLSL
 
 #include "bitmask.glsl"
+#include "edge_union.glsl"
 #include "tile_sums.glsl"
 #include "wedge_index.glsl"
 
@@ -36,15 +40,23 @@ penumbra_Rect2 penumbra_include_hidden_edges(penumbra_WedgePoint p, penumbra_Box
     return rect;
 }
 
-// What all pieces together block of the light, in [0, 1].
+// What the way through the tree is for.
+#define PENUMBRA_WEDGE_BY_INTERVALS 0
+#define PENUMBRA_WEDGE_BY_EDGES 1
+#define PENUMBRA_WEDGE_BY_MASKS 2
+
+// What all pieces together block of the light, in [0, 1]: exactly, or by masks.
 //
 // The first way through the tree gives an interval in which the truth lies, from the exact area of each piece and from
-// a rectangle around it: two pieces overlap by no more than their rectangles do. Where it is wider than half a cell and
-// than the tolerance either way, or a piece may lie over itself, the second way adds masks. Both are one loop in one
-// function: what it calls is large, and drivers copy arrays that functions take and return.
-float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p) {
+// a rectangle around it: two pieces overlap by no more than their rectangles do. Where it is wider than rounding (by
+// masks than half a cell) and than the tolerance either way, or a piece may lie over itself, the second way keeps the
+// edges, or adds masks; where not all edges fit, a third one adds masks. All are one loop in one function: what it
+// calls is large, and drivers copy arrays that functions take and return.
+float penumbra_blend_silhouettes(highp sampler2D wedges, penumbra_WedgeShadow info, penumbra_WedgePoint p,
+                                 bool exactly) {
     int size = PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE;
-    float least = max(0.5f / float(size * size), 2.0f * PENUMBRA_PENUMBRA_WEDGE_TOLERANCE);
+    float least = max(exactly ? 3.814697265625e-06f : 0.5f / float(size * size),
+                      2.0f * PENUMBRA_PENUMBRA_WEDGE_TOLERANCE);
     float unit = 1.0f / penumbra_area(p.light);
     // the piece at hand
     float sum = 0.0f;
@@ -58,21 +70,37 @@ float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info,
     rects[0] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     int kept = 0;
     float total = 0.0f, largest = 0.0f, overlap = 0.0f, lower = 0.0f, upper = 0.0f;
-    bool folds = false, is_second = false;
+    bool folds = false;
+    penumbra_EdgeUnion all;
+    all.count = 0;
+    all.pieces = 0;
+    all.is_new = true;
+    all.is_full = false;
     uint united[PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE];
     penumbra_MaskedOcclusion masked = penumbra_no_masked_occlusion();
-    for (int k = 0; k < size; ++k) {
-        columns[k] = penumbra_empty_column();
-        united[k] = 0u;
-    }
+    int way = PENUMBRA_WEDGE_BY_INTERVALS;
     penumbra_WedgeCursor c = penumbra_first_edge();
     do {
         c = penumbra_next_edge(wedges, info, p, PENUMBRA_WEDGE_PIECE, c);
+        int next_way = way;
         if (c.found == PENUMBRA_WEDGE_EDGE) {
             penumbra_ColumnEdge edge = penumbra_column_edge(c.from, c.to, p.light);
-            sum += c.coefficient * penumbra_covered_below(edge, p.light);
-            rect = penumbra_extend(penumbra_extend(rect, c.from), c.to);
-            if (is_second) {
+            if (way == PENUMBRA_WEDGE_BY_EDGES) {
+                if (penumbra_is_over(edge, int(c.coefficient), p.light)) {
+                    if (all.count < PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES) {
+                        if (all.is_new) ++all.pieces;
+                        all.is_new = false;
+                        all.edges[all.count] = penumbra_union_edge(edge, int(c.coefficient), all.pieces);
+                        ++all.count;
+                    } else {
+                        next_way = PENUMBRA_WEDGE_BY_MASKS;
+                    }
+                }
+            } else {
+                sum += c.coefficient * penumbra_covered_below(edge, p.light);
+                rect = penumbra_extend(penumbra_extend(rect, c.from), c.to);
+            }
+            if (way == PENUMBRA_WEDGE_BY_MASKS) {
                 penumbra_ColumnLine line = penumbra_column_line(edge);
                 bool less = line.rightward == (c.coefficient > 0.0f);
                 int line_first = penumbra_first_column(line.left_x, p.light, size);
@@ -87,7 +115,9 @@ float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info,
                     columns[k] = winding;
                 }
             }
-        } else if (c.found == PENUMBRA_WEDGE_GROUP && is_second) {
+        } else if (c.found == PENUMBRA_WEDGE_GROUP && way == PENUMBRA_WEDGE_BY_EDGES) {
+            all.is_new = true;
+        } else if (c.found == PENUMBRA_WEDGE_GROUP && way == PENUMBRA_WEDGE_BY_MASKS) {
             int wound = 0;
             int winding = 0;
             int fresh = 0;
@@ -128,18 +158,27 @@ float penumbra_blend_by_masks(highp sampler2D wedges, penumbra_WedgeShadow info,
             }
             sum = 0.0f;
             rect = penumbra_empty_rect();
-        } else if (!is_second) {
+        } else if (way == PENUMBRA_WEDGE_BY_INTERVALS) {
             upper = penumbra_saturate(total);
             lower = penumbra_clamp(total - overlap, largest, upper);
-            is_second = folds || upper - lower > least;
-            if (is_second) {
-                c = penumbra_first_edge();
-                c.found = PENUMBRA_WEDGE_GROUP;  // not over
+            if (folds || upper - lower > least)
+                next_way = exactly ? PENUMBRA_WEDGE_BY_EDGES : PENUMBRA_WEDGE_BY_MASKS;
+        }
+        if (next_way != way) {
+            way = next_way;
+            c = penumbra_first_edge();
+            c.found = PENUMBRA_WEDGE_GROUP;  // not over
+            for (int k = 0; way == PENUMBRA_WEDGE_BY_MASKS && k < size; ++k) {
+                columns[k] = penumbra_empty_column();
+                united[k] = 0u;
             }
         }
     } while (c.found != PENUMBRA_WEDGE_NOTHING);
-    if (!is_second) return 0.5f * (lower + upper);
-    return penumbra_clamp(masked.occlusion, folds ? 0.0f : lower, folds ? 1.0f : upper);
+    if (way == PENUMBRA_WEDGE_BY_INTERVALS) return 0.5f * (lower + upper);
+    float occlusion = masked.occlusion;
+    if (way == PENUMBRA_WEDGE_BY_EDGES)
+        occlusion = penumbra_saturate(penumbra_settle(penumbra_area(all, p.light) / penumbra_area(p.light)));
+    return penumbra_clamp(occlusion, folds ? 0.0f : lower, folds ? 1.0f : upper);
 }
 
 #endif
