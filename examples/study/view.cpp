@@ -6,17 +6,27 @@
 namespace penumbra::study {
 namespace {
 
-constexpr int tile = 8;
+constexpr int tile = 8, block = 32;
+
+/// The pixels of a square of the picture: its quarters one after the other, down to tiles, whose rows follow.
+void add_square(int left, int top, int size, int width, int height, std::vector<std::size_t>& order) {
+    if (left >= width || top >= height) return;
+    if (size > tile) {
+        const int half = size / 2;
+        for (int k = 0; k < 4; ++k) add_square(left + k % 2 * half, top + k / 2 * half, half, width, height, order);
+        return;
+    }
+    for (int y = top; y < std::min(top + size, height); ++y)
+        for (int x = left; x < std::min(left + size, width); ++x)
+            order.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x));
+}
 
 /// All pixels, tile by tile.
 std::vector<std::size_t> tiled(int width, int height) {
     std::vector<std::size_t> order;
-    for (int top = 0; top < height; top += tile)
-        for (int left = 0; left < width; left += tile)
-            for (int y = top; y < std::min(top + tile, height); ++y)
-                for (int x = left; x < std::min(left + tile, width); ++x)
-                    order.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                    static_cast<std::size_t>(x));
+    for (int top = 0; top < height; top += block)
+        for (int left = 0; left < width; left += block) add_square(left, top, block, width, height, order);
     return order;
 }
 

@@ -11,6 +11,7 @@
 #ifndef PENUMBRA_WITHOUT_WEDGES
 #include "../../shaders/penumbra/penumbra_wedge/clip.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/coverage.glsl"
+#include "../../shaders/penumbra/penumbra_wedge/edge_union.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/overlap.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/packing.glsl"
 #include "../../shaders/penumbra/penumbra_wedge/shadow.glsl"

@@ -12,6 +12,7 @@
 #include "functions/penumbra_wedge_coverage.hpp"
 #include "functions/penumbra_wedge_overlap.hpp"
 #include "functions/penumbra_wedge_packing.hpp"
+#include "functions/penumbra_wedge_union.hpp"
 #include "functions/penumbra_wedge_wedge.hpp"
 #include "functions/plan.hpp"
 #include "functions/soft_shadow_map.hpp"
@@ -32,6 +33,7 @@ inline std::vector<Function> all() {
     add_penumbra_wedge_coverage(result);
     add_penumbra_wedge_overlap(result);
     add_penumbra_wedge_packing(result);
+    add_penumbra_wedge_union(result);
     add_penumbra_wedge_wedge(result);
     add_plan(result);
     add_soft_shadow_map(result);

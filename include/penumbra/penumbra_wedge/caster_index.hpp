@@ -65,18 +65,18 @@ class CasterIndex {
         if (n > 0) shade_all();
     }
 
-    /// How what casters hide of a light of this area changes between points of a box in light space, world units; see
+    /// How what casters hide of a light changes between points of a box in light space, world units; see
     /// silhouette_variation(). `points`, if not null, are those of the box that matter, in world space.
-    Variation<T> variation(const Box3<T>& box_ls, T light_area, T most, OverlapChange overlap, const Vec3<T>* points,
-                           std::size_t count) const {
+    Variation<T> variation(const Box3<T>& box_ls, LightOutline<T> light, T most, OverlapChange overlap,
+                           const Vec3<T>* points, std::size_t count) const {
         if (index_.empty()) return Variation<T>::all_lit();
-        const T area = light_area * scale_ * scale_;
+        light.area *= scale_ * scale_;
         constexpr T least =
             T(1024) * std::numeric_limits<T>::epsilon();  // of lights whose shadows are not all rounding
         if (!(half_size_.x > least && half_size_.y > least)) return Variation<T>::unknown();
         Variation<T> result =
             silhouette_variation(index_, {box_ls.min * scale_, box_ls.max * scale_},
-                                 BoxPoints<T>(points, count, frame_, scale_), half_size_, area, most, overlap);
+                                 BoxPoints<T>(points, count, frame_, scale_), half_size_, light, most, overlap);
         result.along *= scale_, result.across *= scale_, result.deep *= scale_, result.slope *= scale_;
         return result;
     }

@@ -68,7 +68,7 @@ class PenumbraWedgeShadow {
         if (rule != OverlapRule::exact && rule != OverlapRule::bitmask && rule != OverlapRule::additive)
             return Variation<T>::unknown();
         const Vec2<T> half = casters_.scaled_half_size() / casters_.scale();
-        return casters_.variation(box_ls, T(4) * half.x * half.y, most,
+        return casters_.variation(box_ls, {T(4) * half.x * half.y, false}, most,
                                   rule == OverlapRule::exact     ? detail::OverlapChange::outline
                                   : rule == OverlapRule::bitmask ? detail::OverlapChange::none
                                                                  : detail::OverlapChange::sum,

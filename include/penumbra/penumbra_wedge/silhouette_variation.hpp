@@ -25,6 +25,13 @@
 
 namespace penumbra::detail {
 
+/// A rectangle of the index's half-size, or the disk in it.
+template <class T>
+struct LightOutline {
+    T area;
+    bool is_round;
+};
+
 /// What is made of silhouettes that may overlap.
 enum class OverlapChange {
     none,   ///< nothing that is known: masks
@@ -40,8 +47,8 @@ class SweptArea {
 
     /// Gives up where what is in doubt is more than `most` as a point moves from the middle of the tile's box to its
     /// farthest corner, and where more than most_edges are in sight.
-    SweptArea(const PointTile<T>& tile, T most, OverlapChange overlap, bool from_point)
-        : tile_(tile), most_(most), overlap_(overlap), from_point_(from_point) {
+    SweptArea(const PointTile<T>& tile, bool is_round, T most, OverlapChange overlap, bool from_point)
+        : tile_(tile), is_round_(is_round), most_(most), overlap_(overlap), from_point_(from_point) {
         const Vec3<T> half = (tile.box.max - tile.box.min) * T(0.5);
         across_ = std::sqrt(half.x * half.x + half.y * half.y), deep_ = half.z;
         const Vec2<T> light = tile.light.max;
@@ -92,14 +99,15 @@ class SweptArea {
         b = a + way * part.last, a += way * part.first;
         const T room = tile_.box.min.z - std::max(a.z, b.z);
         if (!(room > T(4) * deep_) || edges_ == most_edges) return false;
+        const T shift = shift_of(a, b, room);
+        if (is_round_ && !clip_to_rim(a, b, shift)) return true;
         SeenEdge& seen = seen_[edges_++];
-        seen.a = a, seen.b = b, seen.whole = sweep(a, b);
+        seen.a = a, seen.b = b, seen.whole = sweep(a, b), seen.shift = shift, seen.hidden = T(0);
         find_inner_part(seen);
-        seen.hidden = T(0);
         seen.coefficient = coefficient;
         seen.piece = static_cast<std::uint16_t>(std::min(pieces_, most_pieces + 1) - 1);
         if (pieces_ <= most_pieces) pieces_seen_[pieces_ - 1].end = edges_;
-        seen.shift = bend(a, b, room, static_cast<T>(std::max(std::abs(coefficient.least), std::abs(coefficient.most))));
+        bend(a, b, room, static_cast<T>(std::max(std::abs(coefficient.least), std::abs(coefficient.most))));
         const bool may_freeze = pieces_ <= most_pieces && is_sum(pieces_seen_[pieces_ - 1]);
         if (!may_freeze || coefficient.least == coefficient.most)
             doubt_ += half_length(share_of(seen), seen.whole.slope);
@@ -317,9 +325,17 @@ class SweptArea {
         return rect.min.x - around < light.max.x && rect.max.x + around > light.min.x &&
                rect.min.y - around < light.max.y && rect.max.y + around > light.min.y;
     }
+    /// How far from where the middle sees them the points of an edge may land.
+    T shift_of(const Vec3<T>& a, const Vec3<T>& b, T room) const {
+        const Vec3<T>& p = tile_.center;
+        const Vec2<T> pa(a.x - p.x, a.y - p.y), pb(b.x - p.x, b.y - p.y);
+        const T r = std::max(a.z, b.z) / room;
+        const T away = std::sqrt(std::max(pa.x * pa.x + pa.y * pa.y, pb.x * pb.x + pb.y * pb.y)) + across_;
+        return r * (across_ + away * (T(1) + r) / tile_.box.min.z * deep_);
+    }
     /// By how much the slope may differ anywhere in the box: bounds of r, its change along the edge, the length on the
-    /// light and the distance from there, then their derivatives. Returns how far the edge may be shifted.
-    T bend(const Vec3<T>& a, const Vec3<T>& b, T room, T times) {
+    /// light and the distance from there, then their derivatives.
+    void bend(const Vec3<T>& a, const Vec3<T>& b, T room, T times) {
         const Vec3<T>& p = tile_.center;
         const T least = tile_.box.min.z, z = std::max(a.z, b.z), r = z / room;
         const T room_a = least - a.z, room_b = least - b.z;
@@ -331,7 +347,6 @@ class SweptArea {
         const T by_depth = r * (length / room + (length * r + reach * uneven) / least);
         bending_ += times * (r * uneven * across_ + by_depth * deep_);
         deep_bending_ += times * (r * grown * grown * span * across_ + T(4) * r * length * reach / room * deep_) / least;
-        return r * across_ + r * reach / least * deep_;
     }
 
     void find_inner_part(SeenEdge& edge) const {
@@ -339,10 +354,39 @@ class SweptArea {
         const bool has_inner = clip(edge.a, edge.b, all_, T(-1e-5), part);
         const T near = tile_.center.z - edge.a.z, far = tile_.center.z - edge.b.z;
         const auto landed = [&](T at) { return at * far / (near + (far - near) * at); };
-        edge.inner_first = landed(part.first), edge.inner_last = landed(part.last);
-        edge.sure = has_inner ? saturated_ratio(edge.whole.times(edge.inner_first, edge.inner_last),
-                                                edge.whole.times(T(0), T(1)))
-                              : T(0);
+        part = {landed(part.first), landed(part.last)};
+        if (is_round_) limit_to_rim(edge.whole, -edge.shift, part);
+        edge.inner_first = part.first, edge.inner_last = part.last;
+        edge.sure = has_inner && part.first < part.last
+                        ? saturated_ratio(edge.whole.times(part.first, part.last), edge.whole.times(T(0), T(1)))
+                        : T(0);
+    }
+    /// The part of an edge that some point of the box may see before a disk. False if there is none.
+    bool clip_to_rim(Vec3<T>& a, Vec3<T>& b, T shift) const {
+        Part part = {T(0), T(1)};
+        limit_to_rim(sweep(a, b), shift, part);
+        if (!(part.first < part.last)) return false;
+        const T near = tile_.center.z - a.z, far = tile_.center.z - b.z;
+        const auto share = [&](T landed) { return landed * near / (far + (near - far) * landed); };
+        const Vec3<T> from = a, way = b - a;
+        if (part.last < T(1)) b = from + way * share(part.last);
+        if (part.first > T(0)) a = from + way * share(part.first);
+        return true;
+    }
+    /// Limits a part of an edge to a circle so much larger than the light.
+    void limit_to_rim(const Sweep& edge, T larger, Part& part) const {
+        const T radius = tile_.light.max.x + larger;
+        const Vec2<T> way = edge.to - edge.from;
+        const T length = way.x * way.x + way.y * way.y, along = edge.from.x * way.x + edge.from.y * way.y;
+        const T out = edge.from.x * edge.from.x + edge.from.y * edge.from.y - radius * radius;
+        const T chord = along * along - length * out;
+        if (!(radius > T(0)) || !(length > T(0)) || !(chord > T(0))) {
+            part.last = part.first;
+            return;
+        }
+        const T reach = std::sqrt(chord);
+        part.first = std::max(part.first, (-along - reach) / length);
+        part.last = std::min(part.last, (reach - along) / length);
     }
     /// The part of an edge between the sides, `slack` of its length longer at both ends. False if there is none.
     bool clip(const Vec3<T>& a, const Vec3<T>& b, const Sides& sides, T slack, Part& part) const {
@@ -366,6 +410,7 @@ class SweptArea {
     }
 
     const PointTile<T>& tile_;
+    bool is_round_;
     T most_, across_, deep_;
     OverlapChange overlap_;
     bool from_point_;
@@ -408,13 +453,13 @@ class BoxPoints {
 /// is in doubt. Error: that of the sums.
 template <class T>
 Variation<T> silhouette_variation(const WedgeIndex<T>& index, const Box3<T>& box, const BoxPoints<T>& points,
-                                  const Vec2<T>& half_size, T light_area, T most, OverlapChange overlap) {
+                                  const Vec2<T>& half_size, const LightOutline<T>& light, T most, OverlapChange overlap) {
     PointTile<T> tile;
     tile.cover(box, half_size);
-    SweptArea<T> swept(tile, most * light_area, overlap, index.silhouette() == SilhouetteFrom::point);
+    SweptArea<T> swept(tile, light.is_round, most * light.area, overlap, index.silhouette() == SilhouetteFrom::point);
     if (!index.visit_candidates(tile, points, swept)) return Variation<T>::unknown();
     Variation<T> result = swept.result();
-    const T unit = T(1) / light_area;
+    const T unit = T(1) / light.area;
     result.along *= unit, result.across *= unit, result.deep *= unit, result.turning *= unit;
     result.slope *= -unit;  // of what is visible
     return result;

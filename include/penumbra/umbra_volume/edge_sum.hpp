@@ -108,7 +108,7 @@ class DiskEdgeSum {
 
     /// See CasterIndex::variation().
     Variation<T> variation(const Box3<T>& box_ls, T radius, T most, const Vec3<T>* points, std::size_t count) const {
-        return casters_.variation(box_ls, pi<T> * radius * radius, most,
+        return casters_.variation(box_ls, {pi<T> * radius * radius, true}, most,
                                   overlap_ == DiskOverlap::exact     ? OverlapChange::outline
                                   : overlap_ == DiskOverlap::bitmask ? OverlapChange::none
                                                                      : OverlapChange::sum,

@@ -134,15 +134,20 @@ float penumbra_area(penumbra_EdgeUnion all, penumbra_Rect2 box) {
     for (int k = 0; k < all.count; ++k) {
         sides[k] = 0;
         int to = k;
-        for (; to > 0 && all.edges[starts[to - 1]].x0 > all.edges[k].x0; --to) starts[to] = starts[to - 1];
+        for (; to > 0; --to) {
+            if (!(all.edges[starts[to - 1]].x0 > all.edges[k].x0)) break;
+            starts[to] = starts[to - 1];
+        }
         starts[to] = k;
     }
     float sum = 0.0f;
     float x = 0.0f;
     int alive = 0, next = 0, cuts = 16 * all.count;
-    for (int strips = 18 * all.count; strips > 0 && (next < all.count || alive > 0); --strips) {
+    for (int strips = 18 * all.count; strips > 0; --strips) {
+        if (next == all.count && alive == 0) break;
         if (alive == 0) x = all.edges[starts[next]].x0;
-        for (; next < all.count && !(all.edges[starts[next]].x0 > x); ++next) {
+        for (; next < all.count; ++next) {
+            if (all.edges[starts[next]].x0 > x) break;
             order[alive] = starts[next];
             left[alive] = penumbra_y_at(all.edges[starts[next]], x);
             ++alive;
@@ -158,7 +163,8 @@ float penumbra_area(penumbra_EdgeUnion all, penumbra_Rect2 box) {
                 float edge_right = penumbra_y_at(all.edges[edge], end);
                 float height = edge_left + edge_right;
                 int to = k;
-                for (; to > 0 && height > left[to - 1] + right[to - 1]; --to) {
+                for (; to > 0; --to) {
+                    if (!(height > left[to - 1] + right[to - 1])) break;
                     order[to] = order[to - 1];
                     left[to] = left[to - 1];
                     right[to] = right[to - 1];
