@@ -16,6 +16,7 @@
 #include <penumbra/occlusion_texture/slice_camera.hpp>
 #include <penumbra/occlusion_texture/slices.hpp>
 #include <penumbra/occlusion_texture/summed_area.hpp>
+#include <penumbra/occlusion_texture/trend.hpp>
 #include <penumbra/penumbra_wedge/bitmask.hpp>
 #include <penumbra/penumbra_wedge/blending.hpp>
 #include <penumbra/penumbra_wedge/caster_index.hpp>
@@ -48,12 +49,16 @@
 #include <penumbra/plan/covers_once.hpp>
 #include <penumbra/plan/effect.hpp>
 #include <penumbra/plan/extents.hpp>
+#include <penumbra/plan/known_depths.hpp>
+#include <penumbra/plan/known_maps.hpp>
+#include <penumbra/plan/known_tiles.hpp>
 #include <penumbra/plan/method_front.hpp>
 #include <penumbra/plan/planned_shadow.hpp>
 #include <penumbra/plan/planner.hpp>
 #include <penumbra/plan/scene_extents.hpp>
 #include <penumbra/plan/selection.hpp>
 #include <penumbra/plan/slice_candidates.hpp>
+#include <penumbra/plan/tile_box.hpp>
 #include <penumbra/plan/tile_query.hpp>
 #include <penumbra/raster.hpp>
 #include <penumbra/soft_shadow_map/discontinuity.hpp>

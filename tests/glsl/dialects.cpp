@@ -72,7 +72,8 @@ std::map<std::string, std::vector<std::string>> calls() {
         wedge +
         "penumbra_WedgeCursor c = penumbra_next_edge(wedges, w, p, PENUMBRA_WEDGE_MESH, penumbra_first_edge()); "
         "O(0) = float(c.found) + c.coefficient; O(1) = c.from.x + c.from.y; O(2) = c.to.x + c.to.y;"};
-    result["penumbra_wedge/mask_blending"] = {wedge + "O(0) = penumbra_blend_by_masks(wedges, w, p);"};
+    result["penumbra_wedge/union_blending"] = {wedge + "O(0) = penumbra_blend_silhouettes(wedges, w, p, true);",
+                                               wedge + "O(0) = penumbra_blend_silhouettes(wedges, w, p, false);"};
     result["penumbra_wedge/blending"] = {
         wedge + "O(0) = penumbra_blend(wedges, w, p);", wedge + "O(0) = penumbra_blend_by_rectangles(wedges, w, p);",
         wedge + "O(0) = penumbra_blend_by_rectangle_product(wedges, w, p);",
@@ -206,14 +207,15 @@ TEST_CASE("passes and queries compile with every option") {
                            "OCCLUSION_TEXTURE_SELF_SHADOW " + self, "OCCLUSION_TEXTURE_CHANNELS 1"},
                           main);
         check("penumbra_wedge/overlap.glsl", "frag", version, {"PENUMBRA_WEDGE_CELLS 4"}, main);
-        for (int rule = 0; rule < 8; ++rule)
+        for (int rule = 0; rule < 9; ++rule)
             for (const std::string from : {"0", "1"})
                 for (const std::string size : {"8", "16", "32"})
                     check("penumbra_wedge/shadow.glsl", "frag", version,
                           {"PENUMBRA_WEDGE_OVERLAP " + std::to_string(rule), "PENUMBRA_WEDGE_SILHOUETTE " + from,
                            "PENUMBRA_WEDGE_BITMASK_SIZE " + size},
                           main);
-        check("penumbra_wedge/shadow.glsl", "frag", version, {"PENUMBRA_WEDGE_TOLERANCE 0.02"}, main);
+        check("penumbra_wedge/shadow.glsl", "frag", version,
+              {"PENUMBRA_WEDGE_TOLERANCE 0.02", "PENUMBRA_WEDGE_UNION_EDGES 256"}, main);
         check("plan/tile_classes.frag", "frag", version, {"TILE_SIZE 16"}, "");
         for (const std::string layers : {"1", "2"})
             for (const std::string form : {"0", "1", "2"})

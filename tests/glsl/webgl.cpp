@@ -241,7 +241,8 @@ TEST_CASE("lookups and queries in WebGL2") {
         visibility("visibility_summed_area", SliceFilter::summed_area, 4),
         visibility("visibility_n_buffer", SliceFilter::n_buffer, 4),
         visibility("visibility_mipmap", SliceFilter::mipmap, 1),
-        wedges("wedges_bitmask", test::scenes()[1], {}),
+        wedges("wedges_exact", test::scenes()[1], {}),
+        wedges("wedges_bitmask", test::scenes()[1], {OverlapRule::bitmask, 32, SilhouetteFrom::point}),
         wedges("wedges_rectangles", test::scenes()[4], {OverlapRule::rectangles, 32, SilhouetteFrom::light_center}),
         d_buffer("d_buffer", test::scenes()[1], d_buffer_options),
     };

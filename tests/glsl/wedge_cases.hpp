@@ -23,8 +23,8 @@ inline std::vector<std::string> wedge_defines(
             "PENUMBRA_PENUMBRA_WEDGE_TOLERANCE " + std::to_string(options.tolerance)};
 }
 inline std::string wedge_name(const PenumbraWedgeOptions& options) {
-    constexpr const char* names[] = {"additive",   "maximum",   "product",           "quadrants",
-                                     "rectangles", "centroids", "rectangle product", "bitmask ", "exact"};
+    constexpr const char* names[] = {"additive",  "maximum",           "product",  "quadrants", "rectangles",
+                                     "centroids", "rectangle product", "bitmask ", "exact"};
     return names[static_cast<int>(options.overlap)] +
            (options.overlap == OverlapRule::bitmask ? std::to_string(options.bitmask_size) : "") +
            (options.silhouette == SilhouetteFrom::point ? "" : ", from the light") +

@@ -156,7 +156,7 @@ std::vector<Knob> PenumbraWedge::knobs() {
     return {choice_knob("technique", technique_, {"rasterised", "index"}),
             choice_knob("overlap", options_.overlap,
                         {"additive", "maximum", "product", "product_quadrants", "rectangles", "rectangles_centroid",
-                         "rectangle_product", "bitmask"}),
+                         "rectangle_product", "bitmask", "exact"}),
             std::move(size), choice_knob("silhouette", options_.silhouette, {"light_center", "point"})};
 }
 

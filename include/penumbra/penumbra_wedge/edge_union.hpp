@@ -21,7 +21,7 @@ namespace penumbra {
 /// The edges of up to `Capacity` that matter to one point, in any order, piece by piece. Edges and box share a plane's
 /// coordinates, any unit; |coordinates| <= 1e18, a box with an area. Edges that are not finite give any area. Error
 /// for ends within some sizes of the box, in units of its area: 4 epsilon for up to 20 pieces of 15 edges (measured:
-/// 2.6e-7, 7e-15), and that of coordinates. Of more than 16 crossings an edge, on average, the last ones count for
+/// 2.6e-7, 7e-15), and that of coordinates. Of more than 64 cuts an edge, on average, the last ones count for
 /// nothing. Time: edges times edges that lie above each other; the same for crossings.
 template <class T, std::size_t Capacity>
 class EdgeUnion {
@@ -76,7 +76,7 @@ class EdgeUnion {
     }
 
   private:
-    static constexpr std::size_t most_cuts = 16;  ///< an edge
+    static constexpr std::size_t most_cuts = 64;  ///< an edge
     static constexpr T steepest = T(1e30);
     struct Edge {
         T x0, y0, x1, slope;  ///< left to right

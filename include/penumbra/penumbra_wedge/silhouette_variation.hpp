@@ -102,7 +102,8 @@ class SweptArea {
         const T shift = shift_of(a, b, room);
         if (is_round_ && !clip_to_rim(a, b, shift)) return true;
         SeenEdge& seen = seen_[edges_++];
-        seen.a = a, seen.b = b, seen.whole = sweep(a, b), seen.shift = shift, seen.hidden = T(0);
+        seen.a = a, seen.b = b, seen.whole = sweep(a, b), seen.shift = shift;
+        seen.hidden = seen.covered = T(0);
         find_inner_part(seen);
         seen.coefficient = coefficient;
         seen.piece = static_cast<std::uint16_t>(std::min(pieces_, most_pieces + 1) - 1);
@@ -179,6 +180,7 @@ class SweptArea {
         T inner_first, inner_last;  ///< the part that all points have before the light
         T sure;              ///< the share of its slope that counts in any case
         T hidden;            ///< the share that other pieces may hide
+        T covered;           ///< the share that another piece surely hides
         T shift;             ///< how far it may be from where the middle sees it
         CoefficientRange coefficient;
         std::uint16_t piece;
@@ -216,24 +218,43 @@ class SweptArea {
         }
     }
     void find_hidden_part(SeenEdge& edge, const SeenPiece& own) const {
-        T in_whole = T(0), in_inner = T(0);
+        std::array<Part, most_pieces> hidden;
+        std::size_t count = 0;
+        Part covered = {T(0), T(0)};
         for (std::size_t k = 0; k < pieces_; ++k) {
             const SeenPiece& other = pieces_seen_[k];
             if (k == edge.piece || is_apart(own.rect, other.rect)) continue;
-            Part part = part_within(edge.whole, other.rect, edge.shift);
-            if (other.is_simple)
-                for (std::size_t e = other.first; e < other.end && part.first < part.last; ++e)
-                    cut_part_outside(edge, seen_[e], part);
+            Part& part = hidden[count] = part_within(edge.whole, other.rect, edge.shift);
+            Part inside = part;
+            bool is_sure = false;
+            for (std::size_t e = other.first; other.is_simple && e < other.end && part.first < part.last; ++e) {
+                cut_by_border(edge, seen_[e], part, inside);
+                is_sure = is_sure || seen_[e].inner_first < seen_[e].inner_last;
+            }
             if (!(part.first < part.last)) continue;
-            in_whole += edge.whole.times(part.first, part.last);
-            if (!(edge.sure > T(0))) continue;
-            // of the inner part, by lengths on the light
-            part.first = std::max(part.first, edge.inner_first), part.last = std::min(part.last, edge.inner_last);
-            if (part.first < part.last) in_inner += edge.whole.times(part.first, part.last);
+            ++count;
+            if (is_sure && overlap_ == OverlapChange::outline &&
+                inside.last - inside.first > covered.last - covered.first)
+                covered = inside;
+        }
+        // each but what is covered, in whole and before the light from all points
+        T in_whole = T(0), in_inner = T(0);
+        const Part inner = {edge.inner_first, edge.inner_last};
+        for (std::size_t k = 0; k < count; ++k) {
+            for (const Part beside : {Part{T(0), covered.first}, Part{covered.last, T(1)}}) {
+                const Part part = both(hidden[k], beside);
+                in_whole += times(edge.whole, part), in_inner += times(edge.whole, both(part, inner));
+            }
         }
         const T all = edge.whole.times(T(0), T(1));
-        edge.hidden = saturated_ratio(in_whole, all);
-        edge.sure = clamp(edge.sure - saturated_ratio(in_inner, all), T(0), T(1) - edge.hidden);
+        edge.covered = saturated_ratio(times(edge.whole, covered), all);
+        edge.hidden = std::min(saturated_ratio(in_whole, all), T(1) - edge.covered);
+        edge.sure = clamp(edge.sure - saturated_ratio(in_inner + times(edge.whole, both(covered, inner)), all), T(0),
+                          T(1) - edge.hidden - edge.covered);
+    }
+    static Part both(const Part& a, const Part& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
+    static T times(const Sweep& edge, const Part& part) {
+        return part.first < part.last ? edge.times(part.first, part.last) : T(0);
     }
     /// What of an edge may land within a rectangle, or so much around it.
     static Part part_within(const Sweep& edge, const Rect2<T>& rect, T around) {
@@ -250,31 +271,38 @@ class SweptArea {
         }
         return part;
     }
-    /// Leaves out what lies outside an edge of a convex piece, from wherever in the box: on which side of the plane
-    /// through three points a fourth one lies is linear in it.
-    void cut_part_outside(const SeenEdge& edge, const SeenEdge& border, Part& part) const {
-        const int sign = border.coefficient.least;
-        if (sign == 0 || sign != border.coefficient.most) return;
-        const Vec3<T> half = (tile_.box.max - tile_.box.min) * T(0.5), along = border.b - border.a;
-        const auto outside = [&](const Vec3<T>& at) {
-            const Vec3<T> normal = glm::cross(along, at - border.a), way = tile_.center - border.a;
-            constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
-            return static_cast<T>(-sign) * glm::dot(normal, way) - glm::dot(glm::abs(normal), half) -
-                   rounding * glm::length(along) * glm::length(way);
-        };
-        const T from = outside(edge.a), to = outside(edge.b);
-        if (from <= T(0) && to <= T(0)) return;
-        if (from > T(0) && to > T(0)) {
-            part.first = part.last;
+    /// Leaves of `some` what may lie inside an edge of a convex piece, and of `all` what surely does, from wherever in
+    /// the box: on which side of the plane through three points a fourth one lies is linear in it.
+    void cut_by_border(const SeenEdge& edge, const SeenEdge& border, Part& some, Part& all) const {
+        const CoefficientRange& c = border.coefficient;
+        if (c.least < 0 && c.most > 0) {
+            all.last = all.first;
             return;
         }
-        // the share of the edge, as the middle sees it land
+        const T sign = c.most > 0 ? T(1) : T(-1);
+        const Vec3<T> half = (tile_.box.max - tile_.box.min) * T(0.5), along = border.b - border.a;
+        const Vec3<T> way = tile_.center - border.a;
+        constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
+        const T least = rounding * glm::length(along) * glm::length(way);
+        const Vec3<T> normal_a = glm::cross(along, edge.a - border.a), normal_b = glm::cross(along, edge.b - border.a);
+        const T room_a = glm::dot(glm::abs(normal_a), half) + least, room_b = glm::dot(glm::abs(normal_b), half) + least;
+        const T inside_a = sign * glm::dot(normal_a, way), inside_b = sign * glm::dot(normal_b, way);
+        keep_positive(edge, inside_a - room_a, inside_b - room_b, all);
+        if (c.least == c.most) keep_positive(edge, inside_a + room_a, inside_b + room_b, some);
+    }
+    /// Limits a part of an edge to where what is linear along it in space is positive, as the middle sees it land.
+    void keep_positive(const SeenEdge& edge, T at_a, T at_b, Part& part) const {
+        if (at_a >= T(0) && at_b >= T(0)) return;
+        if (at_a <= T(0) && at_b <= T(0)) {
+            part.last = part.first;
+            return;
+        }
         const T near = tile_.center.z - edge.a.z, far = tile_.center.z - edge.b.z;
-        const T at = from / (from - to), landed = at * far / (near + (far - near) * at);
-        if (from > T(0))
-            part.first = std::max(part.first, landed);
-        else
+        const T share = at_a / (at_a - at_b), landed = share * far / (near + (far - near) * share);
+        if (at_a > T(0))
             part.last = std::min(part.last, landed);
+        else
+            part.first = std::max(part.first, landed);
     }
 
     Share share_of(const SeenEdge& edge) const {
@@ -283,10 +311,10 @@ class SweptArea {
         const T middle = static_cast<T>(edge.coefficient.middle);
         const bool is_told = edge.piece < most_pieces;
         if (is_told && is_sum(pieces_seen_[edge.piece])) {
+            const T rest = T(1) - edge.covered;
             if (!pieces_seen_[edge.piece].is_frozen)
-                return between(low > T(0) ? low * edge.sure : std::min(low, T(0)),
-                               high < T(0) ? high * edge.sure : std::max(high, T(0)));
-            const T border = T(1) - edge.sure - edge.hidden;
+                return between(low > T(0) ? low * edge.sure : low * rest, high < T(0) ? high * edge.sure : high * rest);
+            const T border = rest - edge.sure - edge.hidden;
             return between(
                 middle * edge.sure + std::min(middle, T(0)) * border + std::min(low, T(0)) * edge.hidden,
                 middle * edge.sure + std::max(middle, T(0)) * border + std::max(high, T(0)) * edge.hidden);

@@ -1,9 +1,11 @@
 // A shadow built as planned, whose batches of points pay only for what their places call for.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <penumbra/detail/variation.hpp>
+#include <penumbra/plan/known_depths.hpp>
+#include <penumbra/plan/known_maps.hpp>
+#include <penumbra/plan/known_tiles.hpp>
 #include <penumbra/plan/planner.hpp>
 #include <penumbra/plan/tile_query.hpp>
 #include <type_traits>
@@ -11,39 +13,6 @@
 #include <vector>
 
 namespace penumbra {
-
-namespace detail {
-
-/// Casters' boxes, widened by what their images may be off by.
-template <class T>
-class LitTest {
-  public:
-    LitTest() = default;
-    /// `texel` and `deepest` widen a box by two texels at its farthest depth: slopes.
-    LitTest(const SceneExtents<T>& extents, const Vec2<T>& texel) : light_(extents.light) {
-        for (Box3<T> box : extents.casters) {
-            const Vec2<T> margin = texel * (T(2) * std::max(box.max.z, T(0)));
-            box.min.x -= margin.x, box.min.y -= margin.y, box.max.x += margin.x, box.max.y += margin.y;
-            if (!is_empty(box)) boxes_.push_back(box);
-        }
-    }
-    Variation<T> operator()(const Box3<T>& tile_ls) const {
-        for (const Box3<T>& box : boxes_)
-            if (occlusion_limit(box, tile_ls, light_) > T(0)) return Variation<T>::unknown();
-        return Variation<T>::all_lit();
-    }
-
-  private:
-    LightExtent<T> light_{};
-    std::vector<Box3<T>> boxes_;
-};
-
-template <class T>
-Vec2<T> texel_slope(const Rect2<T>& slopes, int resolution) {
-    return resolution > 0 ? extent(slopes) / static_cast<T>(resolution) : Vec2<T>(T(0), T(0));
-}
-
-}  // namespace detail
 
 /// Visibility as a plan has it: |this − full| ≤ plan().bound at the receivers that the plan was told of. Queries are
 /// const, allocate nothing, and may run from any number of threads.
@@ -55,12 +24,10 @@ class PlannedShadow {
     /// The casters and receivers that the plan was made for. Maps of line lights are told of receivers too.
     PlannedShadow(const std::vector<Mesh<T>>& casters, Plan<Shadow> plan, const std::vector<Mesh<T>>& receivers = {})
         : plan_(std::move(plan)), shadow_(built(kept(casters), receivers)), frame_(shadow_.frame()) {
-        if constexpr (std::is_same_v<Shadow, SoftShadowMap<T>>) {
-            test_boxes(casters, detail::texel_slope(shadow_.view().slopes, shadow_.view().resolution));
-        } else if constexpr (std::is_same_v<Shadow, UmbraVolumeShadow<T>>) {
-            if (plan_.options.mode == DiskMode::d_buffer)
-                test_boxes(casters, detail::texel_slope(shadow_.d_buffer().view().slopes, plan_.options.resolution));
-        }
+        if constexpr (std::is_same_v<Shadow, SoftShadowMap<T>>)
+            known_ = detail::known_places(shadow_);
+        else if constexpr (std::is_same_v<Shadow, UmbraVolumeShadow<T>>)
+            known_ = detail::known_places(shadow_.d_buffer());
     }
 
     /// Fraction of the light that `point` (world space) sees, in [0, 1], as the planned method has it.
@@ -70,16 +37,26 @@ class PlannedShadow {
     /// light from any of them, or it cannot change by more than the plan allows between them, few are asked.
     /// `answers`, if not null, is told how each came by its visibility.
     void visibility(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers = nullptr) const {
-        const auto vary = [&](const Box3<T>& box_ls, T most, const Vec3<T>* tile, std::size_t size) {
-            return variation(box_ls, most, tile, size);
-        };
-        detail::TileQuery<T, Shadow, decltype(vary)>(shadow_, vary, frame_, plan_.tile_tolerance)(points, count, result,
-                                                                                                  answers);
+        if (is_by_maps()) {
+            const detail::KnownTiles<T, Shadow, detail::KnownPlaces<T>> query(shadow_, known_, frame_);
+            return query(points, count, result, answers);
+        }
+        if constexpr (!std::is_same_v<Shadow, SoftShadowMap<T>>) {
+            const auto vary = [&](const Box3<T>& box_ls, T most, [[maybe_unused]] const Vec3<T>* tile,
+                                  [[maybe_unused]] std::size_t size) {
+                if constexpr (std::is_same_v<Shadow, OcclusionTextureShadow<T>>)
+                    return shadow_.variation(box_ls, most);
+                else
+                    return shadow_.variation(box_ls, most, tile, size);
+            };
+            detail::TileQuery<T, Shadow, decltype(vary)>(shadow_, vary, frame_, plan_.tile_tolerance)(points, count,
+                                                                                                      result, answers);
+        }
     }
 
     const Plan<Shadow>& plan() const { return plan_; }
     const Shadow& shadow() const { return shadow_; }
-    std::size_t bytes() const { return shadow_.bytes(); }
+    std::size_t bytes() const { return shadow_.bytes() + known_.bytes(); }
 
   private:
     std::vector<Mesh<T>> kept(const std::vector<Mesh<T>>& casters) const {
@@ -94,30 +71,20 @@ class PlannedShadow {
         else
             return Shadow(casters, plan_.light, plan_.options);
     }
-    void test_boxes(const std::vector<Mesh<T>>& casters, const Vec2<T>& texel) {
-        SceneExtents<T> extents;
-        extents.light = detail::light_extent(plan_.light);
-        for (const std::size_t i : plan_.casters)
-            if (i < casters.size()) extents.casters.push_back(detail::seen_box(casters[i], frame_));
-        lit_test_ = detail::LitTest<T>(extents, texel);
-    }
-    Variation<T> variation(const Box3<T>& box_ls, T most, const Vec3<T>* points, std::size_t count) const {
-        if constexpr (std::is_same_v<Shadow, SoftShadowMap<T>>) {
-            return lit_test_(box_ls);
-        } else if constexpr (std::is_same_v<Shadow, UmbraVolumeShadow<T>>) {
-            return plan_.options.mode == DiskMode::d_buffer ? lit_test_(box_ls)
-                                                            : shadow_.variation(box_ls, most, points, count);
-        } else if constexpr (std::is_same_v<Shadow, PenumbraWedgeShadow<T>>) {
-            return shadow_.variation(box_ls, most, points, count);
-        } else {
-            return shadow_.variation(box_ls, most);
-        }
+    /// Whether what it answers changes from texel to texel.
+    bool is_by_maps() const {
+        if constexpr (std::is_same_v<Shadow, SoftShadowMap<T>>)
+            return true;
+        else if constexpr (std::is_same_v<Shadow, UmbraVolumeShadow<T>>)
+            return plan_.options.mode == DiskMode::d_buffer;
+        else
+            return false;
     }
 
     Plan<Shadow> plan_;
     Shadow shadow_;
     LightFrame<T> frame_;
-    detail::LitTest<T> lit_test_;
+    detail::KnownPlaces<T> known_;  ///< to shadows by maps, without which everything is lit
 };
 
 }  // namespace penumbra

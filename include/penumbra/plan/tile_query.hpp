@@ -15,6 +15,8 @@
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/numeric.hpp>
+#include <penumbra/plan/tile_box.hpp>
+#include <utility>
 
 namespace penumbra {
 
@@ -54,7 +56,9 @@ class TileQuery {
 
   private:
     static constexpr std::size_t most = 1024, tile = 64, parts = 4;
-    static constexpr int most_cells = 16;  ///< along an axis, in which points share answers
+    static constexpr std::size_t fewest = 4;  ///< that are answered together
+    static constexpr int most_gaps = 3;       ///< at which a part of a tile is split
+    static constexpr int most_cells = 16;     ///< along an axis, in which points share answers
     static constexpr std::uint16_t none = 0xffff;
     static constexpr T smallest = T(1e-30);    ///< what extents are taken for that are none
     static constexpr T worth_sharing = T(12);  ///< in tolerances, from a box's middle to its corners
@@ -71,7 +75,7 @@ class TileQuery {
         const std::size_t tiles = (count + tile - 1) / tile;
         for (std::size_t t = 0; t < tiles; ++t) {
             const std::size_t first = t * tile;
-            boxes_[t] = box_of(first, std::min(tile, count - first));
+            boxes_[t] = box_of(points + first, std::min(tile, count - first));
             if (!is_finite(boxes_[t].min) || !is_finite(boxes_[t].max)) {
                 ask_all(points, count, result, answers);
                 return count;
@@ -79,7 +83,10 @@ class TileQuery {
         }
         for (std::size_t t = 0; t < tiles;) {
             const std::size_t many = std::min(tiles - t, parts);
-            split(t, many, count);
+            const bool together = untried_ == 0;
+            if (!together) --untried_;
+            for (std::size_t part = t; !together && part < t + many; ++part) split(part, 1, count);
+            if (together) split(t, many, count);
             t += many;
         }
         std::array<Vec3<T>, most> asked{};
@@ -91,69 +98,96 @@ class TileQuery {
         return queries_;
     }
 
-    /// Four points at a time, coordinate by coordinate, so that it vectorises. Not finite if any point is not.
-    Box3<T> box_of(std::size_t first, std::size_t count) const {
-        constexpr std::size_t lanes = 12;
-        const Vec3<T>* const points = points_ + first;
-        std::array<T, lanes> low, high, sum{};
-        for (std::size_t j = 0; j < lanes; ++j) low[j] = high[j] = points[0][static_cast<int>(j % 3)];
-        std::size_t i = 0;
-        for (; i + 4 <= count; i += 4) {
-            std::array<T, lanes> at;
-            for (std::size_t k = 0; k < 4; ++k)
-                at[3 * k] = points[i + k].x, at[3 * k + 1] = points[i + k].y, at[3 * k + 2] = points[i + k].z;
-            for (std::size_t j = 0; j < lanes; ++j) {
-                low[j] = at[j] < low[j] ? at[j] : low[j];
-                high[j] = at[j] > high[j] ? at[j] : high[j];
-                sum[j] += std::abs(at[j]);  // whatever min and max make of what is not finite
-            }
-        }
-        Box3<T> box{points[0], points[0]};
-        T all = T(0);
-        const auto extend_by = [&](int axis, T least, T greatest, T size) {
-            box.min[axis] = least < box.min[axis] ? least : box.min[axis];
-            box.max[axis] = greatest > box.max[axis] ? greatest : box.max[axis];
-            all += size;
-        };
-        for (std::size_t j = 0; j < lanes; ++j) extend_by(static_cast<int>(j % 3), low[j], high[j], sum[j]);
-        for (; i < count; ++i)
-            for (int k = 0; k < 3; ++k) extend_by(k, points[i][k], points[i][k], std::abs(points[i][k]));
-        if (!is_finite(all)) box.max.x = std::numeric_limits<T>::infinity();
-        return box;
-    }
-    /// A box in world space, and what rounding may make of its points' places, in light space.
-    Box3<T> seen(const Box3<T>& box) const {
-        const Vec3<T> middle = frame_.to_light((box.min + box.max) * T(0.5)), half = (box.max - box.min) * T(0.5);
-        const Vec3<T> reach = glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(frame_.origin);
-        const T margin = T(8) * std::numeric_limits<T>::epsilon() * (reach.x + reach.y + reach.z);
-        const Vec3<T> out(glm::dot(glm::abs(frame_.u), half) + margin, glm::dot(glm::abs(frame_.v), half) + margin,
-                          glm::dot(glm::abs(frame_.normal), half) + margin);
-        return {middle - out, middle + out};
-    }
+    /// Points that are answered together if they can be: a run of the batch, or some from anywhere in it.
+    struct Group {
+        const Vec3<T>* points;
+        std::size_t count, first;
+        const std::uint16_t* places;  ///< in the batch; if null, from the first on
 
-    /// Answers the points of some tiles: together if that can be, else tile by tile, point by point.
+        std::size_t place(std::size_t i) const { return places ? places[i] : first + i; }
+    };
+
+    /// Answers the points of some tiles: together if that can be, else tile by tile, part by part, point by point.
     void split(std::size_t first_tile, std::size_t tiles, std::size_t all) {
         Box3<T> box = boxes_[first_tile];
         for (std::size_t t = first_tile + 1; t < first_tile + tiles; ++t) box = join(box, boxes_[t]);
         const std::size_t first = first_tile * tile, count = std::min(tiles * tile, all - first);
-        const Box3<T> box_ls = seen(box);
-        Variation<T> variation;
-        if (box_ls.min.z > T(0)) variation = vary_(box_ls, worth_sharing * tolerance_, points_ + first, count);
-        if (variation.known && variation.lit) {
-            std::fill_n(result_ + first, count, T(1));
-            tell(first, count, PointAnswer::lit);
-        } else if (variation.known && doubt(variation, box_ls) <= tolerance_) {
-            set_slope(variation);
-            for (std::size_t i = first; i < first + count; ++i) ask(i, first + count / 2);
-        } else if (variation.known && count > 1 && tolerance_ > T(0) &&
-                   (tiles == 1 || doubt(variation, box_ls) <= T(4) * tolerance_)) {
-            set_slope(variation);
-            share_answers(first, count, variation);
-        } else if (tiles > 1) {
-            for (std::size_t t = first_tile; t < first_tile + tiles; ++t) split(t, 1, all);
+        const Group group{points_ + first, count, first, nullptr};
+        if (tiles == 1) {
+            answer(group, box, most_gaps);
+        } else if (answer_together(group, box, T(4))) {
+            failures_ = 0;
         } else {
-            for (std::size_t i = first; i < first + count; ++i) ask(i, i);
+            failures_ = std::min<std::size_t>(2 * failures_ + 1, 15);
+            untried_ = failures_;
+            for (std::size_t t = first_tile; t < first_tile + tiles; ++t) split(t, 1, all);
         }
+    }
+    void answer(const Group& group, const Box3<T>& box, int gaps) {
+        if (group.count >= fewest) {
+            if (answer_together(group, box, std::numeric_limits<T>::max())) return;
+            if (gaps > 0 && split_at_gap(group, box, gaps)) return;
+        }
+        for (std::size_t i = 0; i < group.count; ++i) ask(group.place(i), group.place(i));
+    }
+    /// False if not known well enough: more than so many tolerances are in doubt, for each query that this took.
+    bool answer_together(const Group& group, const Box3<T>& box, T most_doubt) {
+        const Box3<T> box_ls = seen_from(frame_, box);
+        Variation<T> variation;
+        if (box_ls.min.z > T(0)) variation = vary_(box_ls, worth_sharing * tolerance_, group.points, group.count);
+        if (!variation.known) return false;
+        if (variation.lit) {
+            see_all(group);
+            return true;
+        }
+        set_slope(variation);
+        const T in_doubt = doubt(variation, box_ls);
+        if (in_doubt <= tolerance_) {
+            const std::size_t by = group.place(group.count / 2);
+            for (std::size_t i = 0; i < group.count; ++i) ask(group.place(i), by);
+            return true;
+        }
+        if (!(tolerance_ > T(0)) || in_doubt > most_doubt * variation.effort * tolerance_) return false;
+        share_answers(group, variation);
+        return true;
+    }
+    void see_all(const Group& group) {
+        if (!group.places) {
+            std::fill_n(result_ + group.first, group.count, T(1));
+            tell(group.first, group.count, PointAnswer::lit);
+            return;
+        }
+        for (std::size_t i = 0; i < group.count; ++i) {
+            result_[group.places[i]] = T(1);
+            tell(group.places[i], 1, PointAnswer::lit);
+        }
+    }
+    /// Points of a tile that see two surfaces, one before the other, are answered by surface. False if there is no gap.
+    bool split_at_gap(const Group& group, const Box3<T>& box, int gaps) {
+        const Vec3<T> size = box.max - box.min;
+        const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+        const T middle = (box.min[axis] + box.max[axis]) * T(0.5);
+        T below = box.min[axis], above = box.max[axis];
+        for (std::size_t i = 0; i < group.count; ++i) {
+            const T at = group.points[i][axis];
+            below = at <= middle && at > below ? at : below;
+            above = at > middle && at < above ? at : above;
+        }
+        if (!(above - below > size[axis] * T(0.5))) return false;
+        std::array<Vec3<T>, tile> points;
+        std::array<std::uint16_t, tile> places;
+        std::size_t near = 0, far = group.count;
+        for (std::size_t i = 0; i < group.count; ++i) {
+            const std::size_t to = group.points[i][axis] <= middle ? near++ : --far;
+            points[to] = group.points[i], places[to] = static_cast<std::uint16_t>(group.place(i));
+        }
+        for (const auto& [first, end] : {std::pair(std::size_t(0), near), std::pair(near, group.count)}) {
+            Box3<T> part{points[first], points[first]};
+            for (std::size_t i = first; i < end; ++i)
+                part = {glm::min(part.min, points[i]), glm::max(part.max, points[i])};
+            answer({&points[first], end - first, 0, &places[first]}, part, gaps - 1);
+        }
+        return true;
     }
 
     /// By how much two points of the box may differ from the slope.
@@ -165,29 +199,23 @@ class TileQuery {
 
     /// Puts the points into cells in which visibility changes by no more than the tolerance from the middle to a side,
     /// and asks for the one nearest to the middle; others answer with it if they may.
-    void share_answers(std::size_t first, std::size_t count, const Variation<T>& variation) {
+    void share_answers(const Group& group, const Variation<T>& variation) {
+        const std::size_t count = group.count;
         const Vec2<T> d = variation.direction;
         const Vec3<T> along = frame_.u * d.x + frame_.v * d.y, across = frame_.v * d.x - frame_.u * d.y;
-        std::array<T, parts*tile>&x = x_, &y = y_, &z = z_, &away = away_;
+        std::array<T, parts*tile>&x = x_, &y = y_, &z = z_, &away = away_, &step = step_;
         std::array<int, parts* tile>& cell = cell_;
         for (std::size_t i = 0; i < count; ++i) {
-            const Vec3<T> from = points_[first + i] - frame_.origin;
+            const Vec3<T> from = group.points[i] - frame_.origin;
             x[i] = from.x * along.x + from.y * along.y + from.z * along.z;
             y[i] = from.x * across.x + from.y * across.y + from.z * across.z;
             z[i] = from.x * frame_.normal.x + from.y * frame_.normal.y + from.z * frame_.normal.z;
         }
-        const auto range = [&](const std::array<T, parts * tile>& values) {
-            T low = values[0], high = values[0];
-            for (std::size_t i = 0; i < count; ++i) {
-                low = values[i] < low ? values[i] : low;
-                high = values[i] > high ? values[i] : high;
-            }
-            return Vec2<T>(low, high);
-        };
-        const Vec2<T> in_x = range(x), in_y = range(y), in_z = range(z);
+        const Vec2<T> in_x = range(x, count), in_y = range(y, count), in_z = range(z, count);
         const T left = std::max(tolerance_ - variation.turning - variation.deep * (in_z.y - in_z.x) * T(0.5),
                                 T(1e-3) * tolerance_);
-        const Cells cells = fewest_cells(variation.along * (in_x.y - in_x.x), variation.across * (in_y.y - in_y.x), left);
+        const Cells cells =
+            fewest_cells(variation.along * (in_x.y - in_x.x), variation.across * (in_y.y - in_y.x), left);
         const int columns = cells.columns, rows = cells.rows;
         const T width = std::max(in_x.y - in_x.x, smallest) / static_cast<T>(columns);
         const T height = std::max(in_y.y - in_y.x, smallest) / static_cast<T>(rows);
@@ -201,26 +229,52 @@ class TileQuery {
             away[i] = variation.change(Vec3<T>(from_x, from_y, z[i] - middle_z));
         }
         std::array<std::uint16_t, most_cells * most_cells> chosen;
-        std::fill_n(chosen.begin(), columns * rows, none);
+        std::array<T, most_cells * most_cells> nearest;
+        std::fill_n(chosen.begin(), columns * rows, std::uint16_t(0));
+        std::fill_n(nearest.begin(), columns * rows, std::numeric_limits<T>::max());
         for (std::size_t i = 0; i < count; ++i) {
-            std::uint16_t& one = chosen[static_cast<std::size_t>(cell[i])];
-            if (one == none || away[i] < away[one]) one = static_cast<std::uint16_t>(i);
+            const auto c = static_cast<std::size_t>(cell[i]);
+            const bool is_nearer = away[i] < nearest[c];
+            nearest[c] = is_nearer ? away[i] : nearest[c];
+            chosen[c] = is_nearer ? static_cast<std::uint16_t>(i) : chosen[c];
         }
+        const Vec3<T> slope = variation.turned(variation.slope);
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t with = chosen[static_cast<std::size_t>(cell[i])];
-            const bool may = variation.change(Vec3<T>(x[i] - x[with], y[i] - y[with], z[i] - z[with])) <= tolerance_;
-            ask(first + i, may ? first + with : first + i);
+            const Vec3<T> way(x[i] - x[with], y[i] - y[with], z[i] - z[with]);
+            away[i] = variation.change(way);
+            step[i] = slope.x * way.x + slope.y * way.y + slope.z * way.z;
         }
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t point = group.place(i), by = group.place(chosen[static_cast<std::size_t>(cell[i])]);
+            const bool may = away[i] <= tolerance_;
+            share(point, may ? by : point, may ? step[i] : T(0));
+        }
+    }
+    /// From least to greatest, eight at a time, so that it vectorises.
+    static Vec2<T> range(const std::array<T, parts * tile>& values, std::size_t count) {
+        constexpr std::size_t lanes = 8;
+        std::array<T, lanes> low, high;
+        low.fill(values[0]), high.fill(values[0]);
+        std::size_t i = 0;
+        for (; i + lanes <= count; i += lanes) {
+            for (std::size_t j = 0; j < lanes; ++j) {
+                low[j] = values[i + j] < low[j] ? values[i + j] : low[j];
+                high[j] = values[i + j] > high[j] ? values[i + j] : high[j];
+            }
+        }
+        for (; i < count; ++i) low[0] = std::min(low[0], values[i]), high[0] = std::max(high[0], values[i]);
+        return Vec2<T>(*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end()));
     }
 
     struct Cells {
         int columns, rows;
     };
-    /// Cells from whose middles to corners no more than `most` is in doubt, of what is from side to side.
-    static Cells fewest_cells(T along, T across, T most) {
+    /// Cells from whose middles to corners no more than `doubtful` is in doubt, of what is from side to side.
+    static Cells fewest_cells(T along, T across, T doubtful) {
         Cells best = {most_cells, most_cells};
         for (int rows = 1; rows <= most_cells; ++rows) {
-            const T rest = T(2) * most - across / static_cast<T>(rows);
+            const T rest = T(2) * doubtful - across / static_cast<T>(rows);
             if (!(rest > T(0))) continue;
             const T columns = along / rest;
             if (!(columns < static_cast<T>(most_cells))) continue;
@@ -236,13 +290,17 @@ class TileQuery {
     }
     /// Has a point answered by another's query, or its own.
     void ask(std::size_t point, std::size_t by) {
+        share(point, by, point == by ? T(0) : glm::dot(slope_, points_[point] - points_[by]));
+    }
+    /// The same, where visibility differs by `step`.
+    void share(std::size_t point, std::size_t by, T step) {
         if (asked_at_[by] == none) {
             asked_at_[by] = static_cast<std::uint16_t>(queries_);
             queried_[queries_++] = static_cast<std::uint16_t>(by);
         }
         answered_by_[point] = asked_at_[by];
-        steps_[point] = point == by ? T(0) : glm::dot(slope_, points_[point] - points_[by]);
-        tell(point, 1, point == by ? PointAnswer::own : PointAnswer::shared);
+        steps_[point] = step;
+        if (answers_) answers_[point] = point == by ? PointAnswer::own : PointAnswer::shared;
     }
     void tell(std::size_t first, std::size_t count, PointAnswer how) {
         if (answers_) std::fill_n(answers_ + first, count, how);
@@ -256,12 +314,13 @@ class TileQuery {
     T* result_ = nullptr;
     PointAnswer* answers_ = nullptr;
     std::array<Box3<T>, most / tile> boxes_;
-    std::array<T, parts * tile> x_{}, y_{}, z_{}, away_{};  ///< of points that share answers
+    std::array<T, parts * tile> x_{}, y_{}, z_{}, away_{}, step_{};  ///< of points that share answers
     std::array<int, parts * tile> cell_{};
     std::array<std::uint16_t, most> asked_at_, answered_by_, queried_;  ///< of each point; of each query
     std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
     Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
+    std::size_t failures_ = 0, untried_ = 0;  ///< of blocks of tiles: more after each that had to be split
 };
 
 }  // namespace detail

@@ -25,16 +25,20 @@ struct penumbra_UnionEdge {
     int weight;  // by how much the winding number is higher below than above
 };
 
-// The edges that matter to one point, in any order, piece by piece.
+// The edges that matter to one point, in any order; pieces count from 1. Add edges in place, one that does not fit is
+// lost: drivers copy arrays that functions take and return.
+//     if (penumbra_is_over(edge, weight, box) && all.count < PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES) {
+//         all.edges[all.count] = penumbra_union_edge(edge, weight, piece);
+//         ++all.count;
+//     }
 struct penumbra_EdgeUnion {
     penumbra_UnionEdge edges[PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES];
     int count;
     int pieces;
-    bool is_new;   // what follows is another piece
-    bool is_full;  // an edge more than fits
 };
 
-// As an edge of a piece, one that counts `weight` times.
+// As an edge of a piece, one that counts `weight` times; closed loops that run counter-clockwise cover their inside.
+// Domain: |coordinates| <= 1e18, a box with an area.
 penumbra_UnionEdge penumbra_union_edge(penumbra_ColumnEdge e, int weight, int piece) {
     bool ascends = e.x0 < e.x1;
     bool leftward = ascends != (e.sign > 0.0f);
@@ -48,48 +52,9 @@ penumbra_UnionEdge penumbra_union_edge(penumbra_ColumnEdge e, int weight, int pi
     return edge;
 }
 
-// Whether an edge is over the box, so that it matters.
+// Whether an edge is over the box's bottom, so that it matters.
 bool penumbra_is_over(penumbra_ColumnEdge e, int weight, penumbra_Rect2 box) {
     return e.x0 != e.x1 && weight != 0 && !(e.y0 <= box.min.y && e.y1 <= box.min.y);
-}
-
-penumbra_EdgeUnion penumbra_no_edges() {
-    penumbra_EdgeUnion all;
-    for (int k = 0; k < PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES; ++k) {
-        all.edges[k].x0 = 0.0f;
-        all.edges[k].y0 = 0.0f;
-        all.edges[k].x1 = 0.0f;
-        all.edges[k].slope = 0.0f;
-        all.edges[k].piece = 0;
-        all.edges[k].weight = 0;
-    }
-    all.count = 0;
-    all.pieces = 0;
-    all.is_new = true;
-    all.is_full = false;
-    return all;
-}
-
-// What follows belongs to another piece; a piece covers what its edges wind around.
-penumbra_EdgeUnion penumbra_begin_piece(penumbra_EdgeUnion all) {
-    all.is_new = true;
-    return all;
-}
-
-// With an edge from a to b, `weight` times; closed loops that run counter-clockwise cover their inside. Domain:
-// |coordinates| <= 1e18, a box with an area. Sets is_full if there is no room left.
-penumbra_EdgeUnion penumbra_add(penumbra_EdgeUnion all, vec2 a, vec2 b, int weight, penumbra_Rect2 box) {
-    penumbra_ColumnEdge edge = penumbra_column_edge(a, b, box);
-    if (!penumbra_is_over(edge, weight, box)) return all;
-    if (all.count == PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES) {
-        all.is_full = true;
-        return all;
-    }
-    if (all.is_new) ++all.pieces;
-    all.is_new = false;
-    all.edges[all.count] = penumbra_union_edge(edge, weight, all.pieces);
-    ++all.count;
-    return all;
 }
 
 // Where an edge of the union is at x.
@@ -115,7 +80,7 @@ float penumbra_crossing(float left, float right, float x, float end, float first
     return cut > x && cut < first && wrong > least ? cut : first;
 }
 
-// The area of the part of the box that is covered. One function: drivers copy arrays that functions take and return.
+// The area of the part of the box that is covered: a piece covers what its edges wind around.
 float penumbra_area(penumbra_EdgeUnion all, penumbra_Rect2 box) {
     float least = penumbra_area(box) * 1.490116119384765625e-08f;
     int starts[PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES];        // edges by where they start
@@ -142,8 +107,8 @@ float penumbra_area(penumbra_EdgeUnion all, penumbra_Rect2 box) {
     }
     float sum = 0.0f;
     float x = 0.0f;
-    int alive = 0, next = 0, cuts = 16 * all.count;
-    for (int strips = 18 * all.count; strips > 0; --strips) {
+    int alive = 0, next = 0, cuts = 64 * all.count;
+    for (int strips = 66 * all.count; strips > 0; --strips) {
         if (next == all.count && alive == 0) break;
         if (alive == 0) x = all.edges[starts[next]].x0;
         for (; next < all.count; ++next) {

@@ -33,7 +33,7 @@
 #include "packing.glsl"
 
 #if PENUMBRA_PENUMBRA_WEDGE_OVERLAP > PENUMBRA_OVERLAP_RECTANGLES_CENTROID
-#error "RECTANGLE_PRODUCT and BITMASK need hundreds of numbers a pixel: use shadow.glsl"
+#error "RECTANGLE_PRODUCT, BITMASK and EXACT need hundreds of numbers a pixel: use shadow.glsl"
 #endif
 
 uniform highp sampler2D penumbra_positions;  // world space; w is 0 where nothing is asked

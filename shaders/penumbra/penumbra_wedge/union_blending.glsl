@@ -74,8 +74,7 @@ float penumbra_blend_silhouettes(highp sampler2D wedges, penumbra_WedgeShadow in
     penumbra_EdgeUnion all;
     all.count = 0;
     all.pieces = 0;
-    all.is_new = true;
-    all.is_full = false;
+    bool is_new = true;
     uint united[PENUMBRA_PENUMBRA_WEDGE_BITMASK_SIZE];
     penumbra_MaskedOcclusion masked = penumbra_no_masked_occlusion();
     int way = PENUMBRA_WEDGE_BY_INTERVALS;
@@ -88,8 +87,8 @@ float penumbra_blend_silhouettes(highp sampler2D wedges, penumbra_WedgeShadow in
             if (way == PENUMBRA_WEDGE_BY_EDGES) {
                 if (penumbra_is_over(edge, int(c.coefficient), p.light)) {
                     if (all.count < PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES) {
-                        if (all.is_new) ++all.pieces;
-                        all.is_new = false;
+                        if (is_new) ++all.pieces;
+                        is_new = false;
                         all.edges[all.count] = penumbra_union_edge(edge, int(c.coefficient), all.pieces);
                         ++all.count;
                     } else {
@@ -116,7 +115,7 @@ float penumbra_blend_silhouettes(highp sampler2D wedges, penumbra_WedgeShadow in
                 }
             }
         } else if (c.found == PENUMBRA_WEDGE_GROUP && way == PENUMBRA_WEDGE_BY_EDGES) {
-            all.is_new = true;
+            is_new = true;
         } else if (c.found == PENUMBRA_WEDGE_GROUP && way == PENUMBRA_WEDGE_BY_MASKS) {
             int wound = 0;
             int winding = 0;
