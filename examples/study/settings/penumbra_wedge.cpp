@@ -24,6 +24,8 @@ std::string name_of(const Options& options) {
             return "rectangles_centroid";
         case OverlapRule::rectangle_product:
             return "rectangle_product";
+        case OverlapRule::exact:
+            return "exact";
         case OverlapRule::bitmask:
             break;
     }
@@ -62,6 +64,7 @@ std::vector<Setting> penumbra_wedge_settings(Sweep sweep) {
         }
         for (const int size : {8, 16, 32})
             if (sweep == Sweep::all || size == 32) add(setting(OverlapRule::bitmask, from, size));
+        if (sweep == Sweep::all) add(setting(OverlapRule::exact, from));
     }
     return all;
 }

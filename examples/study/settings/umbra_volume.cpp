@@ -16,6 +16,8 @@ std::string name_of(DiskOverlap overlap, int bitmask_size) {
             return "maximum";
         case DiskOverlap::product:
             return "product";
+        case DiskOverlap::exact:
+            return "exact";
         case DiskOverlap::bitmask:
             break;
     }

@@ -378,16 +378,16 @@ class SweptArea {
     }
 
     void find_inner_part(SeenEdge& edge) const {
+        edge.inner_first = edge.inner_last = edge.sure = T(0);
         Part part = {T(0), T(1)};
-        const bool has_inner = clip(edge.a, edge.b, all_, T(-1e-5), part);
+        if (!clip(edge.a, edge.b, all_, T(-1e-5), part)) return;
         const T near = tile_.center.z - edge.a.z, far = tile_.center.z - edge.b.z;
         const auto landed = [&](T at) { return at * far / (near + (far - near) * at); };
         part = {landed(part.first), landed(part.last)};
         if (is_round_) limit_to_rim(edge.whole, -edge.shift, part);
+        if (!(part.first < part.last)) return;
         edge.inner_first = part.first, edge.inner_last = part.last;
-        edge.sure = has_inner && part.first < part.last
-                        ? saturated_ratio(edge.whole.times(part.first, part.last), edge.whole.times(T(0), T(1)))
-                        : T(0);
+        edge.sure = saturated_ratio(edge.whole.times(part.first, part.last), edge.whole.times(T(0), T(1)));
     }
     /// The part of an edge that some point of the box may see before a disk. False if there is none.
     bool clip_to_rim(Vec3<T>& a, Vec3<T>& b, T shift) const {

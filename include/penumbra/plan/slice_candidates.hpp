@@ -100,8 +100,10 @@ class SliceCandidates {
         return layer;
     }
 
-    /// The change of a mean over a part of the kernel, on a plane that moves from depth `a` to depth `b`.
+    /// The change of a mean over a part of the kernel, on a plane that moves from depth `a` to depth `b`. Filters that
+    /// are not exact jump.
     T moved_loss(T a, T b) const {
+        if (full_.filter != SliceFilter::summed_area) return a < b || a > b ? T(1) : T(0);
         const T cells = static_cast<T>(full_.light_cells);
         T worst = T(0);
         for (const Box3<T>& r : extents_.receivers) {

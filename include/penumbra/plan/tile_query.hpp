@@ -127,6 +127,13 @@ class TileQuery {
         if (group.count >= fewest) {
             if (answer_together(group, box, std::numeric_limits<T>::max())) return;
             if (gaps > 0 && split_at_gap(group, box, gaps)) return;
+            if (!group.places && group.count == tile && effort_ <= T(1)) {
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const Group part{group.points + k * tile / 4, tile / 4, group.first + k * tile / 4, nullptr};
+                    answer(part, box_of(part.points, part.count), 0);
+                }
+                return;
+            }
         }
         for (std::size_t i = 0; i < group.count; ++i) ask(group.place(i), group.place(i));
     }
@@ -135,6 +142,7 @@ class TileQuery {
         const Box3<T> box_ls = seen_from(frame_, box);
         Variation<T> variation;
         if (box_ls.min.z > T(0)) variation = vary_(box_ls, worth_sharing * tolerance_, group.points, group.count);
+        effort_ = variation.effort;
         if (!variation.known) return false;
         if (variation.lit) {
             see_all(group);
@@ -320,6 +328,7 @@ class TileQuery {
     std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
     Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
+    T effort_ = T(1);  ///< of the test before
     std::size_t failures_ = 0, untried_ = 0;  ///< of blocks of tiles: more after each that had to be split
 };
 
