@@ -90,6 +90,30 @@ void check_variations(test::SceneKind kind, const Make& make) {
     CHECK(seen.closest > 0.05);
 }
 
+/// Convex casters, so many before a light that few of their edges are in nobody's way, and receivers behind.
+test::PlanScene<double> crowd(std::uint32_t number) {
+    test::PlanScene<double> scene = test::random_scene<double>(number, test::SceneKind::flat_layers);
+    test::Random random(number);
+    const RectLight<double> light = scene.rect();
+    const LightFrame<double> frame = light_frame(light, Vec3<double>(0.0, 0.0, -1.0));
+    scene.casters.clear();
+    const int count = random.whole(2, 9);
+    for (int k = 0; k < count; ++k) {
+        const double size = random.in(0.1, 1.5);
+        const Vec3<double> at = frame.to_world(random.point(-1.0, 1.0) + Vec3<double>(0.0, 0.0, random.in(1.5, 4.0)));
+        if (random.whole(0, 1) == 0) {
+            scene.casters.push_back(test::box_mesh(at, at + random.point(0.1, 1.0) * size));
+            continue;
+        }
+        const Vec3<double> u = random.point(-1.0, 1.0) * size, v = random.point(-1.0, 1.0) * size;
+        Mesh<double> quad;
+        quad.positions = {at, at + u, at + u + v, at + v};
+        quad.triangles = {{0, 1, 2}, {0, 2, 3}};
+        scene.casters.push_back(quad);
+    }
+    return scene;
+}
+
 constexpr double slope_along = 0.11, slope_across = 0.03, slope_deep = 0.02;
 
 /// Visibility that changes evenly in light space, and is 1 beyond x = 0.
@@ -158,6 +182,29 @@ TEST_CASE("visibility of a disk changes by no more than the variation of sums ov
     check_variations<UmbraVolumeShadow<double>>(test::SceneKind::any, [](const test::PlanScene<double>& scene) {
         return UmbraVolumeShadow<double>(scene.casters, scene.disk());
     });
+}
+
+TEST_CASE("behind casters that hide each other visibility changes by no more than the variation") {
+    Seen rectangles, disks;
+    for (std::uint32_t number = 1; number <= 400; ++number) {
+        CAPTURE(number);
+        const test::PlanScene<double> scene = crowd(number);
+        const LightFrame<double> frame = light_frame(scene.rect(), Vec3<double>(0.0, 0.0, -1.0));
+        test::Random random(number);
+        std::vector<Vec3<double>> points;
+        for (int i = 0; i < 40; ++i)
+            points.push_back(
+                frame.to_world(random.point(-1.0, 1.0) * 2.0 + Vec3<double>(0.0, 0.0, random.in(6.0, 9.0))));
+        check_variation(PenumbraWedgeShadow<double>(scene.casters, scene.rect()), points, random, rectangles);
+        check_variation(UmbraVolumeShadow<double>(scene.casters, scene.disk()), points, random, disks);
+    }
+    for (const Seen& seen : {rectangles, disks}) {
+        const std::string told = std::to_string(seen.known) + " known, " + std::to_string(seen.changing) +
+                                 " changing, " + std::to_string(seen.closest) + " of bounds";
+        MESSAGE(told);
+        CHECK(seen.changing > 500);
+        CHECK(seen.closest > 0.5);
+    }
 }
 
 TEST_CASE("means over kernels change by no more than the variation of occlusion textures") {

@@ -91,7 +91,7 @@ std::vector<Setting> umbra_volume_settings(Sweep sweep) {
     add(setting(edge_sum(DiskOverlap::additive, 32)));
     if (sweep == Sweep::few) return all;
     for (const DiskOverlap overlap : {DiskOverlap::maximum, DiskOverlap::product}) add(setting(edge_sum(overlap, 32)));
-    for (const int size : {8, 16}) add(setting(edge_sum(DiskOverlap::bitmask, size)));
+    for (const int size : {8, 16, 32}) add(setting(edge_sum(DiskOverlap::bitmask, size)));
     add(setting(d_buffer(1)));
     for (const int resolution : {256, 512, 2048}) add(setting(d_buffer(2, resolution)));
     const auto add_to_paper = [&](auto&& change) {

@@ -6,8 +6,7 @@
 //
 // Options: PENUMBRA_PENUMBRA_WEDGE_UNION_EDGES  how many edges fit: 64 (default), at most 32767. 52 bytes each, in
 //                                               arrays of the invocation
-// Error:   4 epsilon of the box's area for up to 20 pieces of 15 edges; bit for bit the C++ where the driver's division
-//          is, of as many edges as fit
+// Error:   1e-6 of the box's area for up to 20 pieces of 15 edges; bit for bit the C++ where the driver's division is
 // C++:     include/penumbra/penumbra_wedge/edge_union.hpp
 #ifndef PENUMBRA_PENUMBRA_WEDGE_EDGE_UNION_GLSL
 #define PENUMBRA_PENUMBRA_WEDGE_EDGE_UNION_GLSL
