@@ -11,9 +11,9 @@ namespace penumbra::study {
 
 using namespace scenes;
 
-/// What the camera sees, in tiles of 8 × 8 pixels, 4 × 4 of them in Z-order, as a renderer would shade them; pixels count row by row from the
-/// top. Only pixels that show a surface with the light's centre in front of it are asked; all others are black whatever
-/// the visibility, and count in no figure.
+/// What the camera sees, in tiles of 8 × 8 pixels, 4 × 4 of them in Z-order, as a renderer would shade them; pixels
+/// count row by row from the top. Only pixels that show a surface with the light's centre in front of it are asked; all
+/// others are black whatever the visibility, and count in no figure.
 struct View {
     int width = 0, height = 0;
     std::vector<Vec3<float>> points;  ///< world space, one an asked pixel

@@ -131,8 +131,8 @@ TEST_CASE("means over kernels change within the bounds of their gradients, whate
                 }
             }
         });
-        const auto held = sweep.held(mask);
-        using Held = detail::KernelSweep<double>::Held;
+        const auto held = sweep.sides().held(mask);
+        using Held = detail::KernelSides<double>::Held;
         CAPTURE(n);
         CHECK(worst <= 1e-9);
         CHECK(outside <= 1e-9);

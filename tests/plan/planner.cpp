@@ -118,7 +118,7 @@ TEST_CASE("boxes apart need no correction of overlap") {
     CHECK(without.options.overlap == OverlapRule::additive);
     CHECK(without.casters.size() == 2);
     CHECK(with.simulates(Effect::overlap));
-    CHECK(with.options.overlap == OverlapRule::bitmask);
+    CHECK(with.options.overlap == OverlapRule::exact);
 }
 
 TEST_CASE("casters that move together get back the correction of overlap in time, and not before their shadows meet") {

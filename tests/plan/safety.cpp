@@ -150,10 +150,10 @@ constexpr int resolutions[] = {64, 96, 128};
 
 PenumbraWedgeOptions any_wedges(test::Random& random) {
     PenumbraWedgeOptions full;
-    const OverlapRule rules[] = {OverlapRule::additive,          OverlapRule::maximum,
-                                 OverlapRule::product,           OverlapRule::product_quadrants,
-                                 OverlapRule::rectangles,        OverlapRule::rectangles_centroid,
-                                 OverlapRule::rectangle_product, OverlapRule::bitmask};
+    const OverlapRule rules[] = {
+        OverlapRule::additive,          OverlapRule::maximum,    OverlapRule::product,
+        OverlapRule::product_quadrants, OverlapRule::rectangles, OverlapRule::rectangles_centroid,
+        OverlapRule::rectangle_product, OverlapRule::bitmask,    OverlapRule::exact};
     full.overlap = one_of(random, rules);
     full.bitmask_size = one_of(random, mask_sizes);
     if (random.whole(0, 2) == 0) full.silhouette = SilhouetteFrom::light_center;
@@ -164,7 +164,7 @@ PenumbraWedgeOptions any_wedges(test::Random& random) {
 UmbraVolumeOptions any_disk_sum(test::Random& random) {
     UmbraVolumeOptions full;
     const DiskOverlap rules[] = {DiskOverlap::additive, DiskOverlap::maximum, DiskOverlap::product,
-                                 DiskOverlap::bitmask};
+                                 DiskOverlap::bitmask, DiskOverlap::exact};
     full.overlap = one_of(random, rules);
     full.bitmask_size = one_of(random, mask_sizes);
     if (random.whole(0, 2) == 0) full.tolerance = random.in(0.0F, 0.02F);

@@ -298,8 +298,8 @@ TEST_CASE("of tiles that see two surfaces each is asked by itself") {
     for (std::size_t i = 0; i < 256; ++i) {  // every third point lies far behind, some of them where all is lit
         const double x = -0.9 + 0.002 * static_cast<double>(i % 8), y = 0.002 * static_cast<double>(i / 8 % 8);
         const bool behind = i % 3 == 0;
-        points.push_back(frame.to_world(Vec3<double>(behind ? x + 0.6 * static_cast<double>(i / 64) : x, y,
-                                                     behind ? 300.0 + y : 4.0)));
+        points.push_back(frame.to_world(
+            Vec3<double>(behind ? x + 0.6 * static_cast<double>(i / 64) : x, y, behind ? 300.0 + y : 4.0)));
     }
     const EvenShadow shadow(frame);
     std::vector<double> result(points.size());
@@ -308,8 +308,7 @@ TEST_CASE("of tiles that see two surfaces each is asked by itself") {
     query(points.data(), points.size(), result.data(), answers.data());
     CHECK(shadow.asked < 20);
     double worst = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        worst = std::max(worst, std::abs(result[i] - shadow.at(points[i])));
+    for (std::size_t i = 0; i < points.size(); ++i) worst = std::max(worst, std::abs(result[i] - shadow.at(points[i])));
     CHECK(worst <= 0.0100001);
     CHECK(std::count(answers.begin(), answers.end(), PointAnswer::lit) > 40);
 }

@@ -9,16 +9,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <limits>
 #include <penumbra/combine.hpp>
+#include <penumbra/detail/boxes.hpp>
 #include <penumbra/detail/variation.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/mesh.hpp>
-#include <penumbra/occlusion_texture/kernel_variation.hpp>
 #include <penumbra/occlusion_texture/mipmap.hpp>
 #include <penumbra/occlusion_texture/n_buffer.hpp>
 #include <penumbra/occlusion_texture/options.hpp>
+#include <penumbra/occlusion_texture/slice_layer.hpp>
+#include <penumbra/occlusion_texture/slice_variation.hpp>
 #include <penumbra/occlusion_texture/slices.hpp>
 #include <penumbra/occlusion_texture/summed_area.hpp>
 #include <type_traits>
@@ -75,7 +75,8 @@ class OcclusionTextureShadow {
     /// up; unknown where more than `most` is in doubt from its middle to its corners, where kernels are thin or sweep
     /// over many texels, and for filters that are not exact.
     Variation<T> variation(const Box3<T>& box_ls, T most) const {
-        return std::visit([&](const auto& layers) { return variation(layers, box_ls, most); }, layers_);
+        const detail::SliceVariation<T> variation_in_box({options_, camera_, range_, half_size_}, box_ls);
+        return std::visit([&](const auto& layers) { return variation_in_box.of(layers, most); }, layers_);
     }
 
     const Options& options() const { return options_; }
@@ -97,13 +98,8 @@ class OcclusionTextureShadow {
   private:
     static constexpr int margin = 2;  // empty texels around the casters: one for bilinear taps, one for rounding
 
-    /// A slice that holds anything: its mask and, for SelfShadow::mean_depth, its depths.
     template <class Filter>
-    struct Layer {
-        int slice;
-        Rect2<T> occupied_tx;  ///< around all that blocks
-        std::vector<Filter> filters;
-    };
+    using Layer = detail::SliceLayer<T, Filter>;
     template <class Filter>
     using Layers = std::vector<Layer<Filter>>;
 
@@ -131,9 +127,6 @@ class OcclusionTextureShadow {
         Values relative;  ///< the point's depth in slices below the slice's top, 0 if it is not below
     };
     static constexpr int most_cells = Options::most_cells * Options::most_cells;
-    static constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
-    static constexpr T depth_margin = T(1e-4);   ///< of means of depths, slices: more than their rounding
-    static constexpr T rounded_up = T(1.00001);  ///< full occlusion stays full through the mean's rounding
 
     void prefilter(const Slices<T>& slices) {
         switch (options_.filter) {
@@ -155,7 +148,7 @@ class OcclusionTextureShadow {
         for (int slice = 0; slice < range_.count; ++slice) {
             const Image<std::uint8_t>& mask = slices.masks[static_cast<std::size_t>(slice)];
             if (mask.empty()) continue;
-            Layer<Filter> layer{slice, occupied_rect(mask), {}};
+            Layer<Filter> layer{slice, detail::occupied_rect<T>(mask), {}};
             const auto add = [&](const Image<std::uint8_t>& image) {
                 if constexpr (std::is_same_v<Filter, NBuffer<std::uint8_t>>)
                     layer.filters.emplace_back(image, levels_needed(slice));
@@ -168,211 +161,11 @@ class OcclusionTextureShadow {
         }
     }
 
-    static Rect2<T> occupied_rect(const Image<std::uint8_t>& mask) {
-        Rect2<T> rect = empty_rect<T>();
-        for (int y = 0; y < mask.height(); ++y) {
-            const std::uint8_t *row = mask.row(y), *end = row + mask.width();
-            const auto is_set = [](std::uint8_t texel) { return texel != 0; };
-            const auto first = std::find_if(row, end, is_set) - row;
-            if (first == mask.width()) continue;
-            const auto last = std::find_if(std::reverse_iterator(end), std::reverse_iterator(row), is_set).base() - row;
-            rect = extend(rect, Vec2<T>(static_cast<T>(first), static_cast<T>(y)));
-            rect = extend(rect, Vec2<T>(static_cast<T>(last), static_cast<T>(y + 1)));
-        }
-        return rect;
-    }
-
     /// No kernel on this slice is larger than a cell of the light seen at the slice's top.
     int levels_needed(int slice) const {
         const T w = T(1) + camera_.convergence * std::max(range_.top(slice), T(0));
         const Vec2<T> kernel = half_size_ * camera_.scale_tx * (T(2) / (w * static_cast<T>(options_.light_cells)));
         return floor_log2(clamp(std::max(kernel.x, kernel.y), T(1), T(16384))) + 2;
-    }
-
-    template <class Filter>
-    Variation<T> variation(const Layers<Filter>& layers, const Box3<T>& box_ls, T most) const {
-        std::array<const Layer<Filter>*, Options::most_slices> touched;
-        std::size_t count = 0;
-        for (const Layer<Filter>& layer : layers) {
-            const T top = range_.top(layer.slice), begin = hidden_to(top);
-            if (!(box_ls.max.z > begin)) continue;
-            Box3<T> behind = box_ls;
-            behind.min.z = std::max(behind.min.z, begin);
-            const Rect2<T> reach = detail::kernel_reach(camera_, plane_depth(top, behind.min.z),
-                                                        plane_depth(top, behind.max.z), behind, half_size_);
-            if (may_touch(reach, layer)) touched[count++] = &layer;
-        }
-        if (count == 0) return Variation<T>::all_lit();
-        if constexpr (std::is_same_v<Filter, SummedArea<std::uint32_t>>)
-            return variation(touched.data(), count, box_ls, most);
-        else
-            return Variation<T>::unknown();
-    }
-
-    /// A slice, and how the points of a box see it.
-    template <class Filter>
-    struct SweptLayer {
-        const Layer<Filter>* layer;
-        detail::KernelSweep<T> sweep;
-        bool passed;            ///< by all points
-        bool hidden_from_some;  ///< which have not come to where it counts
-    };
-    template <class Filter>
-    Variation<T> variation(const Layer<Filter>* const* layers, std::size_t count, const Box3<T>& box_ls, T most) const {
-        const Combination rule = options_.blend.combination;
-        std::array<SweptLayer<Filter>, Options::most_slices> swept;
-        std::size_t held = 0;
-        for (std::size_t i = count; i > 0; --i) {  // from behind: of slices that hold points least is known
-            swept[held] = sweep_over(*layers[i - 1], box_ls, options_.light_cells);
-            const auto& [layer, sweep, passed, hidden_from_some] = swept[held];
-            if (sweep.is_far()) return Variation<T>::unknown();
-            const auto holds = sweep.held(layer->filters[0]);
-            if (holds == detail::KernelSweep<T>::Held::nothing || (!passed && lies_behind(swept[held], box_ls)))
-                continue;
-            if (holds == detail::KernelSweep<T>::Held::all && passed && rule != Combination::mean) return all_dark();
-            if (!sweep.is_known() || sweep.is_wild()) return Variation<T>::unknown();
-            ++held;
-        }
-        if (held == 0) return Variation<T>::all_lit();
-        const bool is_sum = held == 1 && swept[0].passed;  // means of one slice add up to that over all the light
-        const int cells = is_sum ? 1 : options_.light_cells;
-        if (is_sum && cells != options_.light_cells) swept[0] = sweep_over(*swept[0].layer, box_ls, cells);
-        const auto all = static_cast<std::size_t>(cells * cells);
-        std::array<T, most_cells> least;  // that a cell is hidden by one of them
-        std::fill_n(least.begin(), all, T(0));
-        std::array<T, most_cells * Options::most_slices> greatest;
-        const bool one_counts = held > 1 && rule == Combination::max;
-        for (std::size_t i = 0; i < held && one_counts; ++i) {
-            for (std::size_t cell = 0; cell < all; ++cell) {
-                const detail::ValueRange<T> mean = swept[i].sweep.mean(swept[i].layer->filters[0], cell);
-                greatest[i * all + cell] = mean.high;
-                if (swept[i].passed) least[cell] = std::max(least[cell], mean.low);
-            }
-        }
-        std::array<detail::OcclusionTrend<T>, most_cells> occlusions;
-        std::fill_n(occlusions.begin(), all, detail::OcclusionTrend<T>());
-        for (std::size_t i = 0; i < held; ++i) {
-            const auto add = [&](std::size_t cell, const detail::Trend<T>& blocked) {
-                occlusions[cell].add((blocked * rounded_up).up_to_one(), rule);
-            };
-            const auto is_less = [](T most_of_it, T least_of_others) { return most_of_it < least_of_others; };
-            if (one_counts && std::equal(&greatest[i * all], &greatest[i * all] + all, least.begin(), is_less))
-                continue;
-            visit_trends(swept[i], box_ls, add);
-        }
-        std::array<detail::ValueRange<T>, 3> gradient{};
-        for (std::size_t cell = 0; cell < all; ++cell) {
-            const detail::Trend<T> occlusion = occlusions[cell].result(rule);
-            for (std::size_t k = 0; k < 3; ++k) gradient[k] = gradient[k] + occlusion.gradient[k];
-        }
-        const T per_cell = T(0.5) / static_cast<T>(all);
-        Vec3<T> off(T(0), T(0), T(0));
-        Variation<T> result;
-        for (std::size_t k = 0; k < 3; ++k) {
-            result.slope[static_cast<int>(k)] = -(gradient[k].low + gradient[k].high) * per_cell;
-            off[static_cast<int>(k)] = (gradient[k].high - gradient[k].low) * per_cell;
-        }
-        result.known = glm::dot(off, box_ls.max - box_ls.min) * T(0.5) <= most;
-        result.effort = T(16);
-        result.along = off.x, result.across = off.y, result.deep = off.z;
-        return result;
-    }
-    static Variation<T> all_dark() {
-        Variation<T> result;
-        result.known = true;
-        return result;
-    }
-
-    template <class Filter>
-    SweptLayer<Filter> sweep_over(const Layer<Filter>& layer, const Box3<T>& box_ls, int cells) const {
-        const T top = range_.top(layer.slice), begin = hidden_to(top);
-        Box3<T> behind = box_ls;
-        behind.min.z = std::max(behind.min.z, begin);
-        const Vec2<T> planes(plane_depth(top, behind.min.z), plane_depth(top, behind.max.z));
-        const T nominal =
-            options_.plane == SlicePlane::bottom ? top + range_.thickness : top + range_.thickness * T(0.5);
-        const auto slope = [&](T depth) { return (top + depth) * T(0.5) < nominal ? T(0.5) : T(0); };
-        const detail::ValueRange<T> slopes{slope(behind.max.z), slope(behind.min.z)};
-        return {&layer, detail::KernelSweep<T>(camera_, planes, slopes, behind, half_size_, cells),
-                has_passed(layer, box_ls.min.z), box_ls.min.z < begin};
-    }
-
-    /// What a slice blocks of each cell, with weights but without rounding.
-    template <class Filter, class Add>
-    void visit_trends(const SweptLayer<Filter>& swept, const Box3<T>& box_ls, const Add& add) const {
-        if (swept.passed) return swept.sweep.visit(swept.layer->filters[0], add);
-        const auto add_cell = [&](std::size_t cell, const detail::Trend<T>& blocked) {
-            add(cell, swept.hidden_from_some ? join(blocked, detail::Trend<T>::constant(T(0))) : blocked);
-        };
-        detail::Trend<T> relative{relative_depths(swept, box_ls), {}};
-        const T per_depth = T(1) / range_.thickness;
-        relative.gradient[2] = {relative.value.high < T(4) ? per_depth : T(0), per_depth};
-        if (options_.self_shadow == SelfShadow::mean_depth) return visit_weighed_by_depth(swept, relative, add_cell);
-        const T start = options_.self_shadow == SelfShadow::fade ? T(0) : T(1);
-        const detail::Trend<T> weight = (relative + detail::Trend<T>::constant(-start)).at_least_zero().up_to_one();
-        swept.sweep.visit(swept.layer->filters[0],
-                          [&](std::size_t cell, const detail::Trend<T>& mask) { add_cell(cell, mask * weight); });
-    }
-    /// m weight((relative − d / m − bias) / bias) = (m (relative − bias) − d) / bias, from 0 to m
-    template <class Filter, class Add>
-    void visit_weighed_by_depth(const SweptLayer<Filter>& swept, const detail::Trend<T>& relative,
-                                const Add& add) const {
-        const T bias = static_cast<T>(options_.self_shadow_bias);
-        std::array<detail::Trend<T>, most_cells> masks;
-        swept.sweep.visit(swept.layer->filters[0],
-                          [&](std::size_t cell, const detail::Trend<T>& m) { masks[cell] = m; });
-        const detail::Trend<T> before = relative + detail::Trend<T>::constant(-bias);
-        swept.sweep.visit(swept.layer->filters[1], [&](std::size_t cell, const detail::Trend<T>& d) {
-            const detail::Trend<T> seen = (masks[cell] * before + d.negative()) * (T(1) / bias);
-            add(cell, lesser(seen.at_least_zero(), masks[cell]));
-        });
-    }
-    /// Whether all that a slice may hide from the points is at their depth or deeper.
-    template <class Filter>
-    bool lies_behind(const SweptLayer<Filter>& swept, const Box3<T>& box_ls) const {
-        if (options_.self_shadow != SelfShadow::mean_depth) return false;
-        const auto held = swept.sweep.held_depths(swept.layer->filters[0], swept.layer->filters[1]);
-        return relative_depths(swept, box_ls).high - T(options_.self_shadow_bias) <= held.low - depth_margin;
-    }
-    /// Of points that do not lie before where the slice counts.
-    template <class Filter>
-    detail::ValueRange<T> relative_depths(const SweptLayer<Filter>& swept, const Box3<T>& box_ls) const {
-        const T top = range_.top(swept.layer->slice), least = std::max(box_ls.min.z, hidden_to(top));
-        return {relative_depth(top, range_.thickness, least) * (T(1) - rounding),
-                relative_depth(top, range_.thickness, box_ls.max.z) * (T(1) + rounding)};
-    }
-
-    template <class Filter>
-    bool has_passed(const Layer<Filter>& layer, T depth) const {
-        return relative_depth(range_.top(layer.slice), range_.thickness, depth) >= passed_depth();
-    }
-    T plane_depth(T top, T point_depth) const {
-        return slice_plane_depth(top, range_.thickness, point_depth, options_.plane);
-    }
-    /// The depth up to which a slice hides nothing.
-    T hidden_to(T top) const {
-        const T weight = options_.self_shadow == SelfShadow::fade    ? T(0)
-                         : options_.self_shadow == SelfShadow::clear ? T(1)
-                                                                     : T(options_.self_shadow_bias);
-        return top + weight * (T(1) - rounding) * range_.thickness;
-    }
-    /// The relative depth from which on a point has a slice behind it: its plane and its weight stay.
-    T passed_depth() const {
-        const T weight = options_.self_shadow == SelfShadow::fade    ? T(1)
-                         : options_.self_shadow == SelfShadow::clear ? T(2)
-                                                                     : T(1) + T(2) * T(options_.self_shadow_bias);
-        return std::max(weight, options_.plane == SlicePlane::bottom ? T(2) : T(1)) * (T(1) + rounding);
-    }
-
-    /// Whether a kernel within these texels may read what a slice holds.
-    template <class Filter>
-    bool may_touch(const Rect2<T>& kernels_tx, const Layer<Filter>& layer) const {
-        const Vec2<T> size = extent(kernels_tx);
-        const T cells = static_cast<T>(options_.light_cells), longer = std::max(size.x, size.y);
-        const T far = std::max(longer, cells) * static_cast<T>(Filter::reach) / cells + detail::smallest_box<T> * cells;
-        const Rect2<T> held = layer.occupied_tx;
-        return kernels_tx.min.x - far < held.max.x && kernels_tx.max.x + far > held.min.x &&
-               kernels_tx.min.y - far < held.max.y && kernels_tx.max.y + far > held.min.y;
     }
 
     template <class Filter>
@@ -391,7 +184,7 @@ class OcclusionTextureShadow {
         std::array<Values, most_cells> blocked;
         for (const Layer<Filter>& layer : layers) {
             find_kernels(range_.top(layer.slice), p, kernels);
-            if (!any_blocked(kernels, layer.occupied_tx, static_cast<T>(Filter::reach))) continue;
+            if (!any_blocked(kernels, detail::SliceReach<T>(layer, options_.light_cells))) continue;
             grid.set(kernels.boxes, options_.light_cells);
             layer.filters[0].mean(grid, blocked.data());
             self_shadow(layer, kernels, grid, blocked);
@@ -425,23 +218,14 @@ class OcclusionTextureShadow {
         }
     }
 
-    /// Whether a kernel lies behind the slice's top and so near what the slice holds that a mean may read it. Else all
-    /// means are exactly 0. `reach` is the filter's.
-    bool any_blocked(const Kernels& kernels, const Rect2<T>& occupied_tx, T reach) const {
+    /// Whether a kernel lies behind the slice's top and where a mean may read what the slice holds. Else all means are
+    /// exactly 0.
+    static bool any_blocked(const Kernels& kernels, const detail::SliceReach<T>& reach) {
         const detail::Boxes<T>& b = kernels.boxes;
-        const T cells = static_cast<T>(options_.light_cells);
-        const T per_size = reach / cells, widened = detail::smallest_box<T> * cells;
         int any = 0;
-        for (std::size_t i = 0; i < b.count; ++i) {
-            const T width = b.max_x[i] - b.min_x[i], height = b.max_y[i] - b.min_y[i];
-            const T size = width > height ? width : height;
-            const T far = (size > cells ? size : cells) * per_size + widened;
+        for (std::size_t i = 0; i < b.count; ++i)
             any |= static_cast<int>(kernels.relative[i] > T(0)) &
-                   static_cast<int>(b.min_x[i] - far < occupied_tx.max.x) &
-                   static_cast<int>(b.max_x[i] + far > occupied_tx.min.x) &
-                   static_cast<int>(b.min_y[i] - far < occupied_tx.max.y) &
-                   static_cast<int>(b.max_y[i] + far > occupied_tx.min.y);
-        }
+                   reach.may_touch(b.min_x[i], b.min_y[i], b.max_x[i], b.max_y[i]);
         return any != 0;
     }
 
@@ -453,7 +237,7 @@ class OcclusionTextureShadow {
         const SelfShadow mode = options_.self_shadow;
         const T bias = static_cast<T>(options_.self_shadow_bias);
         if (mode == SelfShadow::mean_depth) weigh_by_depth(layer.filters[1], kernels, grid, blocked);
-        constexpr T unit = rounded_up / T(255);
+        constexpr T unit = detail::full_rounded_up<T> / T(255);
         Values weight;
         for (std::size_t i = 0; i < grid.count; ++i) {
             const T relative = kernels.relative[i];

@@ -120,8 +120,8 @@ class EdgeUnion {
         T first = end;
         for (std::size_t k = 1; k < active_; ++k) {
             const T left = order_[k - 1].left - order_[k].left, right = order_[k - 1].right - order_[k].right;
-            if (left >= T(0) && right >= T(0)) continue;
-            const T share = left / (left - right), width = end - x, cut = x + width * share;
+            if ((left >= T(0)) == (right >= T(0))) continue;
+            const T share = left / detail::divisor(left - right), width = end - x, cut = x + width * share;
             // what is in the wrong order to one side of the crossing
             const T wrong = width * std::min(std::abs(left) * share, std::abs(right) * (T(1) - share));
             if (cut > x && cut < first && wrong > least_) first = cut;

@@ -83,11 +83,11 @@ class WedgeIndex {
 
     /// For all points of a tile's box: calls visitor.begin_piece(box, simple, solid) for pieces that may reach into
     /// their pyramids, and visitor.edge(a, b, coefficient) for every edge there, and some beside, that may be on the
-    /// silhouette from any of them, with the CoefficientRange of its coefficient; before them turn(a, b, c, distance) for
-    /// faces that may look at some points from one side and at some from the other, none of which is farther from the
-    /// face's plane. Stops where the visitor answers false, and at a
-    /// face that the points may lie on both sides of. Returns whether it did not. `points`, if not empty, are those of
-    /// the box that matter: size() and [i], in light space.
+    /// silhouette from any of them, with the CoefficientRange of its coefficient; before them turn(a, b, c, distance)
+    /// for faces that may look at some points from one side and at some from the other, none of which is farther from
+    /// the face's plane. Stops where the visitor answers false, and at a face that the points may lie on both sides of.
+    /// Returns whether it did not. `points`, if not empty, are those of the box that matter: size() and [i], in light
+    /// space.
     template <class Visitor, class Points>
     bool visit_candidates(const PointTile<T>& tile, const Points& points, Visitor& visitor) const {
         const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
@@ -232,8 +232,7 @@ class WedgeIndex {
                a.min.z <= b.max.z && a.max.z >= b.min.z;
     }
     template <class Visitor, class Points>
-    bool visit_candidates_of(const PointTile<T>& tile, const Points& points, const Node& node,
-                             Visitor& visitor) const {
+    bool visit_candidates_of(const PointTile<T>& tile, const Points& points, const Node& node, Visitor& visitor) const {
         using Range = CoefficientRange;
         std::array<Range, Coefficients::most> ranges;
         ranges[0] = {0, 0, 0}, ranges[1] = {-1, -1, -1};

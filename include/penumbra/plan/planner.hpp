@@ -93,7 +93,7 @@ class Planner {
                                   [&](const auto& one) { return !before || !before->simulates(one.effect); });
         };
         const auto select_casters = [&](const Pointers& candidates) {
-            return detail::select(candidates, tolerance * T(0.25), hysteresis, [&](const auto& one) {
+            return detail::select(candidates, tolerance * caster_budget, hysteresis, [&](const auto& one) {
                 return !before || !std::binary_search(before->casters.begin(), before->casters.end(), one.caster);
             });
         };
@@ -122,6 +122,7 @@ class Planner {
 
   private:
     using Pointers = std::vector<Candidate<T>*>;
+    static constexpr T caster_budget = T(0.25);  ///< of the tolerance
 
     template <class Select>
     static T select(std::vector<Candidate<T>>& candidates, const Select& choose) {
@@ -137,20 +138,41 @@ class Planner {
         return lost + choose(common);
     }
 
-    /// Those that can be left out one by one, or all together.
+    /// Those that can be left out one by one, or all together. The casters that reach farthest say how near to a face a
+    /// point is on it: they stay as long as any does.
     std::vector<Candidate<T>> find_casters() const {
         std::vector<Candidate<T>> found;
-        if (are_separable(plan_.options) && has_own_frame(plan_.light)) {
+        T all = T(0);
+        for (std::size_t i = 0; i < casters_.size(); ++i)
+            all += image_size(plan_.options) > 0 ? (extents_.hidden[i] > T(0) ? T(1) : T(0))
+                                                 : counted(casters_[i], extents_.hidden[i]);
+        const bool one_by_one = are_separable(plan_.options) && has_own_frame(plan_.light);
+        if (one_by_one && all > plan_.tolerance * caster_budget) {
+            const auto [from_light, from_origin] = farthest_casters();
             for (std::size_t i = 0; i < casters_.size(); ++i)
-                found.push_back({Effect::casters, counted(casters_[i], extents_.hidden[i]), "", T(0), i});
+                if (i != from_light && i != from_origin)
+                    found.push_back({Effect::casters, counted(casters_[i], extents_.hidden[i]), "", T(0), i});
         } else if (!casters_.empty()) {
-            T all = T(0);
-            for (std::size_t i = 0; i < casters_.size(); ++i)
-                all += image_size(plan_.options) > 0 ? (extents_.hidden[i] > T(0) ? T(1) : T(0))
-                                                     : counted(casters_[i], extents_.hidden[i]);
             found.push_back({Effect::casters, saturate(all), "", T(0), casters_.size()});
         }
         return found;
+    }
+    std::pair<std::size_t, std::size_t> farthest_casters() const {
+        std::pair<std::size_t, std::size_t> farthest(0, 0);
+        T from_light = T(-1), from_origin = T(-1);
+        for (std::size_t i = 0; i < casters_.size(); ++i) {
+            Box3<T> box = empty_box<T>();
+            for (const glm::uvec3& t : casters_[i].triangles)
+                for (int k = 0; k < 3; ++k)
+                    if (t[k] < casters_[i].positions.size()) box = extend(box, casters_[i].positions[t[k]]);
+            if (is_empty(box)) continue;
+            const Vec3<T>& light = extents_.frame.origin;
+            const T reach = largest_component(glm::max(glm::abs(box.min - light), glm::abs(box.max - light)));
+            const T far = largest_component(glm::max(glm::abs(box.min), glm::abs(box.max)));
+            if (reach > from_light) from_light = reach, farthest.first = i;
+            if (far > from_origin) from_origin = far, farthest.second = i;
+        }
+        return farthest;
     }
     void find_penumbra(CandidateSearch<T>& search) const {
         const T width = extents_.widest_penumbra();
@@ -192,24 +214,28 @@ class Planner {
     }
 
     /// What is left of the tolerance is lost at a point because overlaps are left out there or because a neighbour
-    /// answers for it: either, where masks decide; for unions both, of which neighbours save more.
+    /// answers for it: either, where masks decide; for unions both, of which neighbours save more. If full leaves out
+    /// overlaps, neighbours of it differ by as much, either way.
     void decide_at_points() {
         const T left = std::max(plan_.tolerance - plan_.bound, T(0));
         T shared = left;
         if constexpr (std::is_same_v<Shadow, PenumbraWedgeShadow<T>> || std::is_same_v<Shadow, UmbraVolumeShadow<T>>) {
             if (decides_at_points(plan_.options)) {
-                const T overlap = are_exact(plan_.options) ? left * T(0.125) : left;
-                if (are_exact(plan_.options)) shared -= overlap;
-                plan_.options.tolerance =
-                    std::max(plan_.options.tolerance, static_cast<float>(std::min(overlap, T(1))));
+                const bool exact = are_exact(plan_.options);
+                const T before = static_cast<T>(plan_.options.tolerance);
+                const T overlap = std::max(exact ? left * T(0.125) : left, before);
+                if (exact) shared = left - overlap - before;
+                if (exact && before > T(0) && !(shared > T(0))) shared = T(-1);
+                plan_.options.tolerance = static_cast<float>(std::min(overlap, T(1)));
                 for (auto& decision : plan_.decisions)
-                    if (decision.effect == Effect::overlap) decision.share = overlap;
+                    if (decision.effect == Effect::overlap) decision.share = std::min(overlap, left);
             }
         }
         plan_.tile_tolerance = shared;
         plan_.bound += left;
+        const T differ = std::max(shared, T(0));
         plan_.decisions.push_back(
-            {Effect::every_point, true, T(1), shared, "of neighbours that differ by up to %s one is asked", shared});
+            {Effect::every_point, true, T(1), differ, "of neighbours that differ by up to %s one is asked", differ});
     }
 
     const Meshes& casters_;

@@ -19,7 +19,8 @@ struct Plan {
     std::vector<std::size_t> casters;             ///< the meshes whose shadows are simulated
     Real tolerance = Real(0);                     ///< what was asked for
     Real bound = Real(0);                         ///< |planned − full| is no more, at any receiver
-    Real tile_tolerance = Real(0);                ///< of it, what neighbours that share a query may differ by
+    Real tile_tolerance = Real(0);                ///< of it, what neighbours that share a query may differ
+                                                   ///< by; negative: none share
     std::vector<EffectDecision<Real>> decisions;  ///< in the order of Effect
 
     /// Whether the effect is simulated, at least where it may matter. True for what the method does not have.

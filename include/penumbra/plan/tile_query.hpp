@@ -34,7 +34,7 @@ namespace detail {
 template <class T, class Shadow, class Vary>
 class TileQuery {
   public:
-    /// `tolerance` ≥ 0.
+    /// `tolerance`: negative, if not even neighbours that surely see the same may share an answer.
     TileQuery(const Shadow& shadow, const Vary& vary, const LightFrame<T>& frame, T tolerance)
         : shadow_(shadow), vary_(vary), frame_(frame), tolerance_(tolerance) {}
 
@@ -328,7 +328,7 @@ class TileQuery {
     std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
     Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
-    T effort_ = T(1);  ///< of the test before
+    T effort_ = T(1);                         ///< of the test before
     std::size_t failures_ = 0, untried_ = 0;  ///< of blocks of tiles: more after each that had to be split
 };
 

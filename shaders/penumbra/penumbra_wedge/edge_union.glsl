@@ -71,8 +71,8 @@ float penumbra_below_outline(penumbra_UnionEdge edge, float since, float x, int 
 // Where two neighbours cross in a strip from x to `first`, the upper one by `left` and `right` higher at its ends, if
 // what is in the wrong order to one side of the crossing is more than `least`; else `first`.
 float penumbra_crossing(float left, float right, float x, float end, float first, float least) {
-    if (left >= 0.0f && right >= 0.0f) return first;
-    float share = left / (left - right);
+    if ((left >= 0.0f) == (right >= 0.0f)) return first;
+    float share = left / penumbra_divisor(left - right);
     float width = end - x;
     float cut = x + width * share;
     float wrong = width * min(abs(left) * share, abs(right) * (1.0f - share));
