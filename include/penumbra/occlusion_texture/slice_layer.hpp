@@ -39,7 +39,7 @@ Rect2<T> occupied_rect(const Image<std::uint8_t>& mask) {
     return rect;
 }
 
-/// Where means over kernels in cells × cells parts may read what a slice holds.
+/// Where means over kernels in cells × cells parts may read what a slice holds. Refers to the layer.
 template <class T>
 class SliceReach {
   public:
@@ -63,7 +63,7 @@ class SliceReach {
     }
 
   private:
-    Rect2<T> held_;
+    const Rect2<T>& held_;
     T cells_, per_size_, widened_;
 };
 

@@ -3,7 +3,7 @@
 // Build: bring casters to light space, index their edges. Query: project the silhouette edges that matter to a point
 // onto the light, integrate what each object blocks, exactly, and combine the objects by the overlap rule. Source:
 // V. Forest, L. Barthe & M. Paulin, "Realistic soft shadows by penumbra-wedges blending", 2006; with silhouettes from
-// each point, and bit masks, exact but for where three cells of a mask would tell more than one.
+// each point, and the exact area of all together.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ enum class Effect {
     volume_silhouette,      ///< volumes between faces that see all of a disk and none; without: from its centre
     extra_samples,          ///< shadow maps inserted where two do not do
     exact_transition,       ///< skins by the edge itself; without: linear in the image
-    every_point             ///< a query for each point; without: one for neighbours that see nearly the same
+    every_point             ///< a query for each point; without: few, and the slope of visibility from there
 };
 inline constexpr int effect_count = 13;
 

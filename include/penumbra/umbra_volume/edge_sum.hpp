@@ -1,9 +1,9 @@
 // The exact mode for disk lights: sums over the edges that are on the silhouette as a point sees it.
 //
 // The one place where this method stands on another: which edges matter to a point, how points are asked about together
-// and how casters unite by masks is the same for every shape of light, and comes from penumbra_wedge's index and
-// blending, which see the square around the disk. The areas are the disk's own (disk_coverage.hpp), and of a mask's
-// cells only those count whose middle is on the disk.
+// and how casters unite is the same for every shape of light, and comes from penumbra_wedge's index and blending, which
+// see the square around the disk. The areas are the disk's own (disk_coverage.hpp), and of a mask's cells only those
+// count whose middle is on the disk.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ struct DiskShape {
 
 /// Visibility of a disk light. Cost, degenerate cases and the tolerance for points on casters are those of
 /// PenumbraWedgeShadow. Error: of one silhouette that does not lie over itself that of disk_edge_coverage, and where
-/// its edges land; of several, that of MaskedOcclusion.
+/// its edges land; of several, that of EdgeUnion.
 template <class T>
 class DiskEdgeSum {
   public:
