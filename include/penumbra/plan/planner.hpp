@@ -169,8 +169,11 @@ class Planner {
             const Vec3<T>& light = extents_.frame.origin;
             const T reach = largest_component(glm::max(glm::abs(box.min - light), glm::abs(box.max - light)));
             const T far = largest_component(glm::max(glm::abs(box.min), glm::abs(box.max)));
-            if (reach > from_light) from_light = reach, farthest.first = i;
-            if (far > from_origin) from_origin = far, farthest.second = i;
+            const auto is_farther = [&](T distance, T before, std::size_t other) {  // of equals, what hides more
+                return distance > before || (distance >= before && extents_.hidden[i] > extents_.hidden[other]);
+            };
+            if (is_farther(reach, from_light, farthest.first)) from_light = reach, farthest.first = i;
+            if (is_farther(far, from_origin, farthest.second)) from_origin = far, farthest.second = i;
         }
         return farthest;
     }
