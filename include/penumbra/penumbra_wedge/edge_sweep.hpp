@@ -211,7 +211,7 @@ EdgePart<T> part_within(const EdgeSweep<T>& edge, const Rect2<T>& rect, T around
     for (int k = 0; k < 2; ++k) {
         const T from = edge.from[k], way = edge.to[k] - from;
         const T low = rect.min[k] - around - from, high = rect.max[k] + around - from;
-        if (std::abs(way) * T(64) < around) {
+        if (std::abs(way) * T(64) <= around) {
             if (low > std::max(way, T(0)) || high < std::min(way, T(0))) return {T(1), T(0)};
             continue;
         }
