@@ -25,6 +25,13 @@ struct Variation {
         return result;
     }
 
+    /// Whatever it is, all see the same.
+    static Variation unchanging() {
+        Variation result;
+        result.known = true;
+        return result;
+    }
+
     /// A step in the frame in which doubts are bounded: along, across, deep.
     Vec3<T> turned(const Vec3<T>& step) const {
         return Vec3<T>(step.x * direction.x + step.y * direction.y, step.y * direction.x - step.x * direction.y,
@@ -32,7 +39,8 @@ struct Variation {
     }
     /// Visibilities of two points of the box, that far apart in this frame, differ from the slope by at most this.
     T change(const Vec3<T>& turned_step) const {
-        return turning + along * std::abs(turned_step.x) + across * std::abs(turned_step.y) + deep * std::abs(turned_step.z);
+        return turning + along * std::abs(turned_step.x) + across * std::abs(turned_step.y) +
+               deep * std::abs(turned_step.z);
     }
 };
 

@@ -72,7 +72,7 @@ class SliceVariation {
             if (slice.sweep().is_far()) return Variation<T>::unknown();
             const Held holds = slice.held();
             if (holds == Held::nothing || (!slice.passed() && slice.lies_behind(setting_, box_))) continue;
-            if (holds == Held::all && slice.passed() && rule != Combination::mean) return all_dark();
+            if (holds == Held::all && slice.passed() && rule != Combination::mean) return Variation<T>::unchanging();
             if (!slice.sweep().is_known() || slice.sweep().is_wild()) return Variation<T>::unknown();
             ++held;
         }
@@ -85,11 +85,6 @@ class SliceVariation {
         Occlusions occlusions;
         combine(slices, held, all, occlusions);
         return add_up(occlusions, all, most);
-    }
-    static Variation<T> all_dark() {
-        Variation<T> result;
-        result.known = true;
-        return result;
     }
 
     /// What the first `held` slices block of each cell.

@@ -137,22 +137,17 @@ class LightView {
     }
     /// How far from where the middle sees them the points of an edge may land.
     T shift_of(const Vec3<T>& a, const Vec3<T>& b) const {
-        const Vec3<T>& p = tile_.center;
-        const Vec2<T> pa(a.x - p.x, a.y - p.y), pb(b.x - p.x, b.y - p.y);
         const T r = std::max(a.z, b.z) / room(a, b);
-        const T away = std::sqrt(std::max(pa.x * pa.x + pa.y * pa.y, pb.x * pb.x + pb.y * pb.y)) + across_;
-        return r * (across_ + away * (T(1) + r) / tile_.box.min.z * deep_);
+        return r * (across_ + farthest(a, b) * (T(1) + r) / tile_.box.min.z * deep_);
     }
     /// By how much the slope may differ anywhere in the box: bounds of r, its change along the edge, the length on the
     /// light and the distance from there, then their derivatives.
     SlopeRange<T> slope_range(const Vec3<T>& a, const Vec3<T>& b) const {
-        const Vec3<T>& p = tile_.center;
         const T least = tile_.box.min.z, room = this->room(a, b), r = std::max(a.z, b.z) / room;
         const T room_a = least - a.z, room_b = least - b.z;
         const T uneven = (least + T(2) * deep_) * std::abs(b.z - a.z) / (room_a * room_b);
-        const Vec2<T> ab(b.x - a.x, b.y - a.y), pa(a.x - p.x, a.y - p.y), pb(b.x - p.x, b.y - p.y);
-        const T span = std::sqrt(ab.x * ab.x + ab.y * ab.y);
-        const T away = std::sqrt(std::max(pa.x * pa.x + pa.y * pa.y, pb.x * pb.x + pb.y * pb.y)) + across_;
+        const Vec2<T> ab(b.x - a.x, b.y - a.y);
+        const T span = std::sqrt(ab.x * ab.x + ab.y * ab.y), away = farthest(a, b);
         const T grown = T(1) + r, reach = away * grown, length = grown * span + uneven * away;
         const T by_depth = r * (length / room + (length * r + reach * uneven) / least);
         return {r * uneven * across_ + by_depth * deep_,
@@ -165,6 +160,12 @@ class LightView {
         T right, left, top, bottom;
     };
 
+    /// Across the axis, from any point to any of an edge.
+    T farthest(const Vec3<T>& a, const Vec3<T>& b) const {
+        const Vec3<T>& p = tile_.center;
+        const Vec2<T> pa(a.x - p.x, a.y - p.y), pb(b.x - p.x, b.y - p.y);
+        return std::sqrt(std::max(pa.x * pa.x + pa.y * pa.y, pb.x * pb.x + pb.y * pb.y)) + across_;
+    }
     /// Limits a part of an edge to a circle so much larger than the light.
     void limit_to_rim(const EdgeSweep<T>& edge, T larger, EdgePart<T>& part) const {
         const T radius = tile_.light.max.x + larger;

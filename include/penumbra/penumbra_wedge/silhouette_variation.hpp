@@ -54,8 +54,10 @@ class SweptArea {
             const PointTile<T>& tile = view_.tile();
             const bool beyond = box.max.z >= tile.box.min.z;
             const Rect2<T> rect = beyond ? tile.light : intersect(project_box(box, tile.box), tile.light);
-            SeenPiece& piece = pieces_seen_[pieces_] = {
-                rect, from_point_ && simple, simple || solid, true, false, T(0), false, edges_, edges_};
+            SeenPiece& piece = pieces_seen_[pieces_];
+            piece.rect = rect, piece.first = piece.end = edges_, piece.turning = T(0);
+            piece.is_simple = from_point_ && simple, piece.is_wound_once = simple || solid;
+            piece.is_alone = true, piece.is_turned = piece.is_frozen = false;
             for (std::size_t k = 0; k < pieces_; ++k) {
                 if (is_apart(rect, pieces_seen_[k].rect)) continue;
                 piece.is_alone = pieces_seen_[k].is_alone = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <penumbra/combine.hpp>
 #include <penumbra/penumbra_wedge/edge_union.hpp>
 #include <penumbra/penumbra_wedge/interval_blending.hpp>

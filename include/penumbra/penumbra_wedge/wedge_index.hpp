@@ -198,11 +198,15 @@ class WedgeIndex {
         }
     }
 
+    /// How often a face counts for points that see it from one side, or else edge-on.
+    int count_of(const Face& face, bool away, bool front) const {
+        if (from_ == SilhouetteFrom::light_center) return away || front ? face.from_light : 0;
+        return away ? -1 : front && !face.solid ? 1 : 0;
+    }
     /// From a face's plane: how often it counts for a point at this signed distance from it.
     T coefficient_of(const Face& face, T distance) const {
-        const bool away = distance<-tolerance_, front = distance> tolerance_;
-        if (from_ == SilhouetteFrom::light_center) return away || front ? static_cast<T>(face.from_light) : T(0);
-        return away ? T(-1) : front && !face.solid ? T(1) : T(0);
+        const bool away = distance < -tolerance_;
+        return static_cast<T>(count_of(face, away, distance > tolerance_));
     }
 
     void find_coefficients(const PointTile<T>& tile, const Face& face, Coefficients& c, std::size_t f) const {
@@ -271,8 +275,7 @@ class WedgeIndex {
     }
     /// How a face counts that all points look at from one side, or edge-on.
     CoefficientRange range_of(const Face& face, bool away, bool front) const {
-        const bool from_light = from_ == SilhouetteFrom::light_center, seen = away || front;
-        const int count = from_light ? (seen ? face.from_light : 0) : away ? -1 : front && !face.solid ? 1 : 0;
+        const int count = count_of(face, away, front);
         return {count, count, count};
     }
     /// Whether each of the points looks at a face from the same side, by more than rounding, and how it counts then.

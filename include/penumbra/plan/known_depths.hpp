@@ -117,7 +117,7 @@ struct KnownPlaces {
             dark = dark && depths.x > known.dark_after && depths.y <= known.dark_until;
             if (!lit && !dark) return Variation<T>::unknown();
         }
-        return lit ? Variation<T>::all_lit() : all_dark();
+        return lit ? Variation<T>::all_lit() : Variation<T>::unchanging();
     }
     std::size_t bytes() const {
         std::size_t sum = 0;
@@ -126,11 +126,6 @@ struct KnownPlaces {
     }
 
   private:
-    static Variation<T> all_dark() {
-        Variation<T> none;  // changes nowhere
-        none.known = true;
-        return none;
-    }
     /// Whether a box lies before the light, and at slopes that can be told apart.
     bool is_before(const Box3<T>& box) const {
         constexpr T steepest = T(1e6);

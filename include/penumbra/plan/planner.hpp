@@ -55,8 +55,7 @@ inline bool are_separable(const PenumbraWedgeOptions& options) {
            options.overlap == OverlapRule::product || options.overlap == OverlapRule::product_quadrants;
 }
 inline bool are_separable(const UmbraVolumeOptions& options) {
-    return options.mode == DiskMode::edge_sum && options.overlap != DiskOverlap::bitmask &&
-           options.overlap != DiskOverlap::exact;
+    return options.mode == DiskMode::edge_sum && !decides_at_points(options);
 }
 inline bool are_separable(const OcclusionTextureOptions&) { return false; }
 inline bool are_separable(const SoftShadowMapOptions&) { return false; }
@@ -161,10 +160,7 @@ class Planner {
         std::pair<std::size_t, std::size_t> farthest(0, 0);
         T from_light = T(-1), from_origin = T(-1);
         for (std::size_t i = 0; i < casters_.size(); ++i) {
-            Box3<T> box = empty_box<T>();
-            for (const glm::uvec3& t : casters_[i].triangles)
-                for (int k = 0; k < 3; ++k)
-                    if (t[k] < casters_[i].positions.size()) box = extend(box, casters_[i].positions[t[k]]);
+            const Box3<T> box = checked_bounds(casters_[i]);
             if (is_empty(box)) continue;
             const Vec3<T>& light = extents_.frame.origin;
             const T reach = largest_component(glm::max(glm::abs(box.min - light), glm::abs(box.max - light)));

@@ -77,15 +77,21 @@ bool has_own_frame(const LinearLight<T>&) {
     return false;
 }
 
-/// The middle of all that casters' faces reach to, at which lights without a direction of their own look; of broken
-/// meshes, of what is not.
+/// bounds() of a mesh that may be broken: of what is not.
+template <class T>
+Box3<T> checked_bounds(const Mesh<T>& mesh) {
+    Box3<T> box = empty_box<T>();
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            if (t[k] < mesh.positions.size()) box = extend(box, mesh.positions[t[k]]);
+    return box;
+}
+
+/// The middle of all casters, at which lights without a direction of their own look.
 template <class T>
 Vec3<T> middle_of(const std::vector<Mesh<T>>& casters) {
     Box3<T> box = empty_box<T>();
-    for (const Mesh<T>& mesh : casters)
-        for (const glm::uvec3& t : mesh.triangles)
-            for (int k = 0; k < 3; ++k)
-                if (t[k] < mesh.positions.size()) box = extend(box, mesh.positions[t[k]]);
+    for (const Mesh<T>& mesh : casters) box = join(box, checked_bounds(mesh));
     return is_empty(box) ? Vec3<T>(T(0), T(0), T(0)) : (box.min + box.max) * T(0.5);
 }
 template <class T>
