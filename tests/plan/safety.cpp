@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <penumbra/plan.hpp>
 #include <string>
 #include <vector>
@@ -65,6 +66,20 @@ Shadow full_shadow(const Meshes& casters, const Light& light, const typename Sha
         return Shadow(casters, light, options);
 }
 
+/// How far `value` is from all that full has within rounding of a point, where that is a range: N-buffers and mip-maps
+/// jump, slices may be hardly thicker than coordinates are exact, and -ffast-math rounds by the place in an array.
+template <class Shadow, class T>
+T off_around(const Shadow& full, const Vec3<T>& point, T value, T expected) {
+    const T step = T(4) * std::numeric_limits<T>::epsilon() * detail::largest_component(point);
+    T least = expected, most = expected;
+    for (int way = 0; way < 27; ++way) {
+        const Vec3<T> to(static_cast<T>(way % 3 - 1), static_cast<T>(way / 3 % 3 - 1), static_cast<T>(way / 9 - 1));
+        const T near = full.visibility(point + to * step);
+        least = std::min(least, near), most = std::max(most, near);
+    }
+    return std::max({T(0), value - most, least - value});
+}
+
 /// Plans a scene for each tolerance. Every second plan knows another before it, that of the same scene for another
 /// tolerance: it may say nothing wrong.
 template <class Shadow, class T, class Light>
@@ -91,12 +106,16 @@ void check_scene(const test::PlanScene<T>& scene, const Light& light, const type
         std::size_t at = 0, single = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const bool is_share = is_finite(result[i]) && result[i] >= T(0) && result[i] <= T(1);
-            const T off = is_share ? std::abs(result[i] - expected[i]) : T(2);
+            T off = is_share ? std::abs(result[i] - expected[i]) : T(2);
+            if (is_share && off > most) off = off_around(shadow, points[i], result[i], expected[i]);
             if (off > worst) worst = off, at = i;
             ++tally.answers[static_cast<std::size_t>(answers[i])];
         }
-        for (std::size_t i = 0; i < points.size(); i += 97)
-            if (std::abs(planned.visibility(points[i]) - expected[i]) > most) ++single;
+        for (std::size_t i = 0; i < points.size(); i += 97) {
+            const T value = planned.visibility(points[i]);
+            if (std::abs(value - expected[i]) > most && off_around(shadow, points[i], value, expected[i]) > most)
+                ++single;
+        }
         ++tally.plans;
         for (const auto& decision : plan.decisions) {
             const auto e = static_cast<std::size_t>(decision.effect);
