@@ -248,7 +248,7 @@ TEST_CASE("batches of any size are answered within the tolerance, whoever is tol
             const std::vector<Vec3<double>> points = tiled_points(count, frame);
             std::vector<double> told(count + 1, -1.0), untold(count + 1, -1.0);
             std::vector<PointAnswer> answers(count + 1, PointAnswer::own);
-            detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, tolerance);
+            detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, tolerance, 1);
             query(points.data(), count, told.data(), answers.data());
             query(points.data(), count, untold.data(), nullptr);
             double worst = 0.0, apart = 0.0;
@@ -278,7 +278,7 @@ TEST_CASE("neighbours that see nearly the same are asked once") {
     std::size_t before = points.size();
     for (const double tolerance : {1e-3, 1e-2, 0.1}) {
         const EvenShadow shadow(frame);
-        detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, tolerance);
+        detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, tolerance, 1);
         query(points.data(), points.size(), result.data(), answers.data());
         const auto own = static_cast<std::size_t>(std::count(answers.begin(), answers.end(), PointAnswer::own));
         CHECK(shadow.asked == own);
@@ -304,7 +304,7 @@ TEST_CASE("of tiles that see two surfaces each is asked by itself") {
     const EvenShadow shadow(frame);
     std::vector<double> result(points.size());
     std::vector<PointAnswer> answers(points.size());
-    detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, 0.01);
+    detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, 0.01, 1);
     query(points.data(), points.size(), result.data(), answers.data());
     CHECK(shadow.asked < 20);
     double worst = 0.0;
@@ -330,7 +330,7 @@ TEST_CASE("points without a place see all of the light, and others what they see
             points[at][random.whole(0, 2)] = bad[random.whole(0, 2)];
         }
         std::vector<double> result(count);
-        detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, 0.01);
+        detail::TileQuery<double, EvenShadow, decltype(vary)> query(shadow, vary, frame, 0.01, 1);
         query(points.data(), count, result.data(), nullptr);
         double worst = 0.0;
         for (std::size_t i = 0; i < count; ++i)

@@ -16,7 +16,6 @@ struct Variation {
     Vec2<T> direction = Vec2<T>(T(1), T(0));     ///< across the light's axis, of unit length: where most is in doubt
     T along = T(0), across = T(0), deep = T(0);  ///< doubt for each world unit along it, across it, in depth, at most
     T turning = T(0);                            ///< doubt between any two points
-    T effort = T(1);                             ///< of finding this out, in queries, roughly
 
     static Variation unknown() { return {}; }
     static Variation all_lit() {

@@ -73,7 +73,7 @@ class SliceVariation {
             const Held holds = slice.held();
             if (holds == Held::nothing || (!slice.passed() && slice.lies_behind(setting_, box_))) continue;
             if (holds == Held::all && slice.passed() && rule != Combination::mean) return Variation<T>::unchanging();
-            if (!slice.sweep().is_known() || slice.sweep().is_wild()) return Variation<T>::unknown();
+            if (!(most > T(0)) || !slice.sweep().is_known() || slice.sweep().is_wild()) return Variation<T>::unknown();
             ++held;
         }
         if (held == 0) return Variation<T>::all_lit();
@@ -128,7 +128,6 @@ class SliceVariation {
             off[static_cast<int>(k)] = (gradient[k].high - gradient[k].low) * per_cell;
         }
         result.known = glm::dot(off, box_.max - box_.min) * T(0.5) <= most;
-        result.effort = T(16);
         result.along = off.x, result.across = off.y, result.deep = off.z;
         return result;
     }

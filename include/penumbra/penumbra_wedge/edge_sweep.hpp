@@ -43,6 +43,33 @@ struct EdgeSweep {
     T times() const { return times({T(0), T(1)}); }
 };
 
+/// Parts of an edge, at most so many, that may overlap.
+template <class T, std::size_t most_parts>
+class EdgeCover {
+  public:
+    void add(const EdgePart<T>& part) {
+        if (!(part.first < part.last)) return;
+        std::size_t at = count_++;
+        for (; at > 0 && parts_[at - 1].first > part.first; --at) parts_[at] = parts_[at - 1];
+        parts_[at] = part;
+    }
+    /// A measure of all of them together, within a part; of one, measure(part).
+    template <class Measure>
+    T sum(const EdgePart<T>& within, const Measure& measure) const {
+        T sum = T(0), covered_to = within.first;
+        for (std::size_t k = 0; k < count_; ++k) {
+            const EdgePart<T> part = {std::max(parts_[k].first, covered_to), std::min(parts_[k].last, within.last)};
+            if (!(part.first < part.last)) continue;
+            sum += measure(part), covered_to = part.last;
+        }
+        return sum;
+    }
+
+  private:
+    std::array<EdgePart<T>, most_parts> parts_;  ///< in the order in which they begin
+    std::size_t count_ = 0;
+};
+
 /// By how much a slope may differ anywhere in a box: across the axis and in depth.
 template <class T>
 struct SlopeRange {
@@ -89,11 +116,10 @@ class LightView {
         EdgePart<T> part = {T(0), T(1)};
         limit_to_rim(sweep(a, b), shift, part);
         if (!(part.first < part.last)) return false;
-        const T near = tile_.center.z - a.z, far = tile_.center.z - b.z;
-        const auto share = [&](T landed) { return landed * near / (far + (near - far) * landed); };
         const Vec3<T> from = a, way = b - a;
-        if (part.last < T(1)) b = from + way * share(part.last);
-        if (part.first > T(0)) a = from + way * share(part.first);
+        const EdgePart<T> in_space = {not_landed(a, b, part.first), not_landed(a, b, part.last)};
+        if (part.last < T(1)) b = from + way * in_space.last;
+        if (part.first > T(0)) a = from + way * in_space.first;
         return true;
     }
     /// The part of an edge that all points see before the light, by where it lands.
@@ -108,6 +134,12 @@ class LightView {
     T landed(const Vec3<T>& a, const Vec3<T>& b, T share) const {
         const T near = tile_.center.z - a.z, far = tile_.center.z - b.z;
         return share * far / (near + (far - near) * share);
+    }
+
+    /// The reverse.
+    T not_landed(const Vec3<T>& a, const Vec3<T>& b, T landed) const {
+        const T near = tile_.center.z - a.z, far = tile_.center.z - b.z;
+        return landed * near / (far + (near - far) * landed);
     }
 
     EdgeSweep<T> sweep(const Vec3<T>& a, const Vec3<T>& b) const {

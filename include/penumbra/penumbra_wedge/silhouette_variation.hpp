@@ -57,7 +57,7 @@ class SweptArea {
             SeenPiece& piece = pieces_seen_[pieces_];
             piece.rect = rect, piece.first = piece.end = edges_, piece.turning = T(0);
             piece.is_simple = from_point_ && simple, piece.is_wound_once = simple || solid;
-            piece.is_alone = true, piece.is_turned = piece.is_frozen = false;
+            piece.is_alone = true, piece.is_turned = piece.is_steady = false;
             for (std::size_t k = 0; k < pieces_; ++k) {
                 if (is_apart(rect, pieces_seen_[k].rect)) continue;
                 piece.is_alone = pieces_seen_[k].is_alone = false;
@@ -69,8 +69,8 @@ class SweptArea {
         return overlap_ != OverlapChange::none || (pieces_ <= most_pieces && is_exact(pieces_seen_[pieces_ - 1]));
     }
 
-    /// A face that the points do not all see from one side. To take it as the middle does changes what its piece blocks
-    /// by no more than the triangle measures on the light.
+    /// A face that the points do not all see from one side. Without it its piece blocks less, by no more than the
+    /// triangle measures on the light.
     void turn(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c, T distance) {
         if (pieces_ > most_pieces) return;
         const PointTile<T>& tile = view_.tile();
@@ -100,11 +100,11 @@ class SweptArea {
         if (pieces_ <= most_pieces) pieces_seen_[pieces_ - 1].end = edges_;
         const T times = static_cast<T>(std::max(std::abs(coefficient.least), std::abs(coefficient.most)));
         const SlopeRange<T> range = view_.slope_range(a, b);
-        bending_ += times * range.across, deep_bending_ += times * range.deep;
-        const bool may_freeze = pieces_ <= most_pieces && is_sum(pieces_seen_[pieces_ - 1]);
-        if (!may_freeze || coefficient.least == coefficient.most)
-            doubt_ += half_length(share_of(seen), seen.whole.slope);
-        return doubt_ + bending_ * view_.across() + deep_bending_ * view_.deep() <= most_;
+        seen.bending = Vec2<T>(range.across, range.deep) * times;
+        bending_ += seen.bending.x * view_.across() + seen.bending.y * view_.deep();
+        const bool may_count = pieces_ > most_pieces || !may_be_steady(pieces_seen_[pieces_ - 1]);
+        if (may_count || coefficient.least == coefficient.most) doubt_ += half_length(share_of(seen), seen.whole.slope);
+        return doubt_ + bending_ <= most_;
     }
 
     /// As areas on the light.
@@ -127,11 +127,12 @@ class SweptArea {
         const T size = std::sqrt(axis.x * axis.x + axis.y * axis.y);
         if (size > T(0)) result.direction = axis / size;
         for (std::size_t k = 0; k < std::min(pieces_, most_pieces); ++k)
-            if (pieces_seen_[k].is_frozen) result.turning += T(2) * pieces_seen_[k].turning;
-        result.along = result.across = bending_, result.deep = deep_bending_;
+            if (pieces_seen_[k].is_steady) result.turning += pieces_seen_[k].turning;
         for (std::size_t e = 0; e < edges_; ++e) {
             const Vec3<T> d = result.turned(doubts[e]);
-            result.along += std::abs(d.x), result.across += std::abs(d.y), result.deep += std::abs(d.z);
+            const Vec2<T>& bending = seen_[e].bending;
+            result.along += std::abs(d.x) + bending.x, result.across += std::abs(d.y) + bending.x;
+            result.deep += std::abs(d.z) + bending.y;
         }
         return result;
     }
@@ -143,8 +144,8 @@ class SweptArea {
         bool is_wound_once;      ///< winds around everything in the same sense
         bool is_alone;           ///< covers nothing that another piece covers
         bool is_turned;          ///< by a face that is too near to say what it measures on the light
-        T turning;               ///< faces that look here and there, as areas on the light
-        bool is_frozen;          ///< whether that is less than what their edges leave in doubt
+        T turning;               ///< faces that not all points see alike, as areas on the light
+        bool is_steady;          ///< taken without these: that is less than what their edges leave in doubt
         std::size_t first, end;  ///< its edges
     };
     struct SeenEdge {
@@ -152,6 +153,7 @@ class SweptArea {
         EdgeSweep<T> whole;
         EdgePart<T> inner;  ///< what all points have before the light
         T sure;             ///< the share of its slope that counts in any case
+        Vec2<T> bending;    ///< by how much its slope may differ, across the axis and in depth
         T hidden;           ///< the share that other pieces may hide
         T covered;          ///< the share that another piece surely hides
         T shift;            ///< how far it may be from where the middle sees it
@@ -168,71 +170,69 @@ class SweptArea {
     bool is_sum(const SeenPiece& piece) const {
         return is_exact(piece) || (piece.is_simple && overlap_ == OverlapChange::outline);
     }
+    /// Whether a part of what it blocks is what faces that all points see alike do.
+    bool may_be_steady(const SeenPiece& piece) const {
+        return is_sum(piece) || (from_point_ && piece.is_wound_once && overlap_ == OverlapChange::outline);
+    }
 
-    /// What of each edge counts in any case, and what other pieces may hide; whether to take faces that turn as the
-    /// middle sees them, or their edges as in doubt.
+    /// What of each edge counts in any case, and what other pieces may hide; which pieces to take without their faces
+    /// that not all points see alike. What a convex solid still blocks then has the same edges from everywhere.
     void find_what_is_sure() {
         if (pieces_ > most_pieces) {
             for (SeenPiece& piece : pieces_seen_) piece.is_simple = false;
             return;
         }
         std::array<T, most_pieces> doubts{};
+        for (std::size_t e = 0; e < edges_; ++e)
+            if (seen_[e].coefficient.least != seen_[e].coefficient.most)
+                doubts[seen_[e].piece] += half_length(share_of(seen_[e]), seen_[e].whole.slope);
+        for (std::size_t k = 0; k < pieces_; ++k) {
+            SeenPiece& piece = pieces_seen_[k];
+            piece.is_steady = may_be_steady(piece) && !piece.is_turned && piece.turning < doubts[k];
+        }
         for (std::size_t e = 0; e < edges_; ++e) {
             SeenEdge& edge = seen_[e];
             const SeenPiece& own = pieces_seen_[edge.piece];
-            if (!is_sum(own)) continue;
-            if (!own.is_alone) find_hidden_part(edge, own);
-            if (edge.coefficient.least != edge.coefficient.most)
-                doubts[edge.piece] += half_length(share_of(edge), edge.whole.slope);
-        }
-        for (std::size_t k = 0; k < pieces_; ++k) {
-            SeenPiece& piece = pieces_seen_[k];
-            piece.is_frozen = is_sum(piece) && !piece.is_turned && T(2) * piece.turning < doubts[k];
+            if (own.is_steady && edge.coefficient.steady == 0)
+                edge.bending = Vec2<T>(T(0), T(0));
+            else if (is_sum(own) && !own.is_alone)
+                find_hidden_part(edge, own);
         }
     }
     void find_hidden_part(SeenEdge& edge, const SeenPiece& own) const {
-        std::array<EdgePart<T>, most_pieces> hidden;
-        std::size_t count = 0;
-        EdgePart<T> covered = {T(0), T(0)};
+        EdgeCover<T, most_pieces> hidden, covered;
         for (std::size_t k = 0; k < pieces_; ++k) {
             const SeenPiece& other = pieces_seen_[k];
             if (k == edge.piece || is_apart(own.rect, other.rect)) continue;
-            EdgePart<T>& part = hidden[count] = part_within(edge.whole, other.rect, edge.shift);
+            EdgePart<T> part = part_within(edge.whole, other.rect, edge.shift);
             EdgePart<T> inside = part;
             bool is_sure = false;
             for (std::size_t e = other.first; other.is_simple && e < other.end && part.first < part.last; ++e) {
                 cut_by_border(edge, seen_[e], part, inside);
-                is_sure = is_sure || seen_[e].inner.first < seen_[e].inner.last;
+                is_sure = is_sure || (seen_[e].coefficient.steady != 0 && seen_[e].inner.first < seen_[e].inner.last);
             }
-            if (!(part.first < part.last)) continue;
-            ++count;
-            if (is_sure && overlap_ == OverlapChange::outline &&
-                inside.last - inside.first > covered.last - covered.first)
-                covered = inside;
+            hidden.add(part);
+            if (is_sure && overlap_ == OverlapChange::outline) covered.add(inside);
         }
-        // each but what is covered, in whole and before the light from all points
-        T in_whole = T(0), in_inner = T(0);
-        for (std::size_t k = 0; k < count; ++k) {
-            for (const EdgePart<T> beside : {EdgePart<T>{T(0), covered.first}, EdgePart<T>{covered.last, T(1)}}) {
-                const EdgePart<T> part = both(hidden[k], beside);
-                in_whole += edge.whole.times(part), in_inner += edge.whole.times(both(part, edge.inner));
-            }
-        }
-        in_inner += edge.whole.times(both(covered, edge.inner));
-        const T all = edge.whole.times();
-        edge.covered = saturated_ratio(edge.whole.times(covered), all);
-        edge.hidden = std::min(saturated_ratio(in_whole, all), T(1) - edge.covered);
+        const EdgePart<T> whole = {T(0), T(1)};
+        const auto times = [&](const EdgePart<T>& part) { return edge.whole.times(part); };
+        const auto in_space = [&](const EdgePart<T>& part) {
+            return view_.not_landed(edge.a, edge.b, part.last) - view_.not_landed(edge.a, edge.b, part.first);
+        };
+        const T all = edge.whole.times(), in_whole = hidden.sum(whole, times);
+        const T in_inner = hidden.sum(edge.inner, times), in_covered = covered.sum(whole, times);
+        edge.bending *= std::max(T(1) - covered.sum(whole, in_space), T(0));
+        edge.covered = saturated_ratio(in_covered, all);
+        edge.hidden = std::min(saturated_ratio(in_whole - in_covered, all), T(1) - edge.covered);
         edge.sure = clamp(edge.sure - saturated_ratio(in_inner, all), T(0), T(1) - edge.hidden - edge.covered);
     }
     /// Leaves of `some` what may lie inside an edge of a convex piece, and of `all` what surely does, from wherever in
-    /// the box: on which side of the plane through three points a fourth one lies is linear in it.
+    /// the box: on which side of the plane through three points a fourth one lies is linear in it. What is to the left
+    /// of all edges that a piece has without its turning faces, and at least one of them, lies in what these leave.
     void cut_by_border(const SeenEdge& edge, const SeenEdge& border, EdgePart<T>& some, EdgePart<T>& all) const {
         const CoefficientRange& c = border.coefficient;
-        if (c.least < 0 && c.most > 0) {
-            all.last = all.first;
-            return;
-        }
-        const T sign = c.most > 0 ? T(1) : T(-1);
+        if (c.steady == 0) return;
+        const T sign = c.steady > 0 ? T(1) : T(-1);
         const Box3<T>& box = view_.tile().box;
         const Vec3<T> half = (box.max - box.min) * T(0.5), along = border.b - border.a;
         const Vec3<T> way = view_.tile().center - border.a;
@@ -262,19 +262,15 @@ class SweptArea {
     Share share_of(const SeenEdge& edge) const {
         const auto between = [](T low, T high) -> Share { return {(low + high) * T(0.5), (high - low) * T(0.5)}; };
         T low = static_cast<T>(edge.coefficient.least), high = static_cast<T>(edge.coefficient.most);
-        const T middle = static_cast<T>(edge.coefficient.middle);
         const bool is_told = edge.piece < most_pieces;
         if (is_told && is_sum(pieces_seen_[edge.piece])) {
             const T rest = T(1) - edge.covered;
-            if (!pieces_seen_[edge.piece].is_frozen)
-                return between(low > T(0) ? low * edge.sure : low * rest, high < T(0) ? high * edge.sure : high * rest);
-            const T border = rest - edge.sure - edge.hidden;
-            return between(middle * edge.sure + std::min(middle, T(0)) * border + std::min(low, T(0)) * edge.hidden,
-                           middle * edge.sure + std::max(middle, T(0)) * border + std::max(high, T(0)) * edge.hidden);
+            if (pieces_seen_[edge.piece].is_steady) low = high = static_cast<T>(edge.coefficient.steady);
+            return between(low > T(0) ? low * edge.sure : low * rest, high < T(0) ? high * edge.sure : high * rest);
         }
-        const T times = std::max(std::abs(low), std::abs(high));
-        if (overlap_ != OverlapChange::outline) return {T(0), times};
+        if (overlap_ != OverlapChange::outline) return {T(0), std::max(std::abs(low), std::abs(high))};
         if (!from_point_ || !is_told || !pieces_seen_[edge.piece].is_wound_once) return {T(0), T(1)};
+        if (pieces_seen_[edge.piece].is_steady) low = high = static_cast<T>(edge.coefficient.steady);
         return between(std::max(std::min(low, T(0)), T(-1)), std::min(std::max(high, T(0)), T(1)));
     }
     T half_length(const Share& share, const Vec3<T>& slope) const {
@@ -291,7 +287,7 @@ class SweptArea {
     T most_;
     OverlapChange overlap_;
     bool from_point_;
-    T doubt_ = T(0), bending_ = T(0), deep_bending_ = T(0);
+    T doubt_ = T(0), bending_ = T(0);  ///< of edges so far
     std::size_t pieces_ = 0, edges_ = 0, candidates_ = 0;
     std::array<SeenPiece, most_pieces> pieces_seen_;
     std::array<SeenEdge, most_edges> seen_;

@@ -23,9 +23,10 @@
 
 namespace penumbra {
 
-/// How often a face or an edge counts for points of a box: at least, at most, and for the box's middle.
+/// How often a face or an edge counts for points of a box: at least, at most, and without the faces that they do not all
+/// see alike.
 struct CoefficientRange {
-    int least, most, middle;
+    int least, most, steady;
 };
 
 /// Built once; queried from any number of threads, without allocation.
@@ -255,10 +256,9 @@ class WedgeIndex {
                 if (overlaps(tile.box, box_of(face))) return false;
                 const int fixed = face.from_light;
                 if (from_ == SilhouetteFrom::point)
-                    range = {face.solid || !away_none ? -1 : 0, face.solid ? 0 : 1,
-                             static_cast<int>(coefficient_of(face, middle))};
+                    range = {face.solid || !away_none ? -1 : 0, face.solid ? 0 : 1, 0};
                 else if (touches(tile, box_of(face)))
-                    range = {std::min(fixed, 0), std::max(fixed, 0), fixed};
+                    range = {std::min(fixed, 0), std::max(fixed, 0), 0};
                 else
                     range = {fixed, fixed, fixed};
                 if (f < node.owned_faces && range.least != range.most)
@@ -268,7 +268,7 @@ class WedgeIndex {
         for (std::size_t e = 0; e < node.edge_count; ++e) {
             const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
             const Range left = ranges[edge.left], right = ranges[edge.right];
-            const Range range = {left.least - right.most, left.most - right.least, left.middle - right.middle};
+            const Range range = {left.least - right.most, left.most - right.least, left.steady - right.steady};
             if ((range.least != 0 || range.most != 0) && !visitor.edge(edge.a, edge.b, range)) return false;
         }
         return true;

@@ -49,8 +49,9 @@ class PlannedShadow {
                 else
                     return shadow_.variation(box_ls, most, tile, size);
             };
-            detail::TileQuery<T, Shadow, decltype(vary)>(shadow_, vary, frame_, plan_.tile_tolerance)(points, count,
-                                                                                                      result, answers);
+            constexpr std::size_t effort = std::is_same_v<Shadow, OcclusionTextureShadow<T>> ? 16 : 1;
+            detail::TileQuery<T, Shadow, decltype(vary)>(shadow_, vary, frame_, plan_.tile_tolerance, effort)(
+                points, count, result, answers);
         }
     }
 

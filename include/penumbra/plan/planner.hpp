@@ -222,7 +222,7 @@ class Planner {
             if (decides_at_points(plan_.options)) {
                 const bool exact = are_exact(plan_.options);
                 const T before = static_cast<T>(plan_.options.tolerance);
-                const T overlap = std::max(exact ? left * T(0.125) : left, before);
+                const T overlap = std::max(exact ? left * T(0.03125) : left, before);
                 if (exact) shared = left - overlap - before;
                 if (exact && before > T(0) && !(shared > T(0))) shared = T(-1);
                 plan_.options.tolerance = static_cast<float>(std::min(overlap, T(1)));

@@ -34,9 +34,10 @@ namespace detail {
 template <class T, class Shadow, class Vary>
 class TileQuery {
   public:
-    /// `tolerance`: negative, if not even neighbours that surely see the same may share an answer.
-    TileQuery(const Shadow& shadow, const Vary& vary, const LightFrame<T>& frame, T tolerance)
-        : shadow_(shadow), vary_(vary), frame_(frame), tolerance_(tolerance) {}
+    /// `tolerance`: negative, if not even neighbours that surely see the same may share an answer. `effort`: of finding
+    /// a variation, in queries, roughly.
+    TileQuery(const Shadow& shadow, const Vary& vary, const LightFrame<T>& frame, T tolerance, std::size_t effort)
+        : shadow_(shadow), vary_(vary), frame_(frame), tolerance_(tolerance), effort_(effort) {}
 
     /// `answers`, if any, is told how each point came by its answer.
     void operator()(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers) {
@@ -127,7 +128,7 @@ class TileQuery {
         if (group.count >= fewest) {
             if (answer_together(group, box, std::numeric_limits<T>::max())) return;
             if (gaps > 0 && split_at_gap(group, box, gaps)) return;
-            if (!group.places && group.count == tile && effort_ <= T(1)) {
+            if (!group.places && group.count == tile) {
                 for (std::size_t k = 0; k < 4; ++k) {
                     const Group part{group.points + k * tile / 4, tile / 4, group.first + k * tile / 4, nullptr};
                     answer(part, box_of(part.points, part.count), 0);
@@ -141,8 +142,8 @@ class TileQuery {
     bool answer_together(const Group& group, const Box3<T>& box, T most_doubt) {
         const Box3<T> box_ls = seen_from(frame_, box);
         Variation<T> variation;
-        if (box_ls.min.z > T(0)) variation = vary_(box_ls, worth_sharing * tolerance_, group.points, group.count);
-        effort_ = variation.effort;
+        const T most = group.count >= 2 * effort_ ? worth_sharing * tolerance_ : T(0);
+        if (box_ls.min.z > T(0)) variation = vary_(box_ls, most, group.points, group.count);
         if (!variation.known) return false;
         if (variation.lit) {
             see_all(group);
@@ -155,7 +156,7 @@ class TileQuery {
             for (std::size_t i = 0; i < group.count; ++i) ask(group.place(i), by);
             return true;
         }
-        if (!(tolerance_ > T(0)) || in_doubt > most_doubt * variation.effort * tolerance_) return false;
+        if (!(tolerance_ > T(0)) || in_doubt > most_doubt * static_cast<T>(effort_) * tolerance_) return false;
         share_answers(group, variation);
         return true;
     }
@@ -318,6 +319,7 @@ class TileQuery {
     const Vary& vary_;
     const LightFrame<T>& frame_;
     T tolerance_;
+    std::size_t effort_;
     const Vec3<T>* points_ = nullptr;
     T* result_ = nullptr;
     PointAnswer* answers_ = nullptr;
@@ -328,7 +330,6 @@ class TileQuery {
     std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
     Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
-    T effort_ = T(1);                         ///< of the test before
     std::size_t failures_ = 0, untried_ = 0;  ///< of blocks of tiles: more after each that had to be split
 };
 
