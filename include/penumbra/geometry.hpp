@@ -1,7 +1,9 @@
 // Vectors, rectangles, boxes, planes, and the clipping of convex polygons.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <limits>
@@ -33,10 +35,14 @@ std::string text(const Vec3<T>& v) {
            text(static_cast<double>(v.z)) + ")";
 }
 
+/// Of the components; glm::abs may not be inlined.
+template <class T>
+Vec3<T> magnitudes(const Vec3<T>& v) {
+    return Vec3<T>(std::abs(v.x), std::abs(v.y), std::abs(v.z));
+}
 template <class T>
 T largest_component(const Vec3<T>& v) {
-    const Vec3<T> magnitude = glm::abs(v);
-    return glm::max(magnitude.x, glm::max(magnitude.y, magnitude.z));
+    return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
 }
 
 /// The exponent of the power of two that brings `largest` near 1, where squares neither overflow nor vanish. Powers

@@ -26,10 +26,12 @@
 #include <penumbra/penumbra_wedge/caster_index.hpp>
 #include <penumbra/penumbra_wedge/clip.hpp>
 #include <penumbra/penumbra_wedge/coverage.hpp>
+#include <penumbra/penumbra_wedge/edge_sweep.hpp>
 #include <penumbra/penumbra_wedge/edge_union.hpp>
 #include <penumbra/penumbra_wedge/fixed_silhouettes.hpp>
 #include <penumbra/penumbra_wedge/interval_blending.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
+#include <penumbra/penumbra_wedge/lit_side.hpp>
 #include <penumbra/penumbra_wedge/mask_blending.hpp>
 #include <penumbra/penumbra_wedge/options.hpp>
 #include <penumbra/penumbra_wedge/overlap.hpp>

@@ -239,8 +239,8 @@ class SweptArea {
         constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
         const T least = rounding * glm::length(along) * glm::length(way);
         const Vec3<T> normal_a = glm::cross(along, edge.a - border.a), normal_b = glm::cross(along, edge.b - border.a);
-        const T room_a = glm::dot(glm::abs(normal_a), half) + least,
-                room_b = glm::dot(glm::abs(normal_b), half) + least;
+        const T room_a = glm::dot(magnitudes(normal_a), half) + least,
+                room_b = glm::dot(magnitudes(normal_b), half) + least;
         const T inside_a = sign * glm::dot(normal_a, way), inside_b = sign * glm::dot(normal_b, way);
         keep_positive(edge, inside_a - room_a, inside_b - room_b, all);
         if (c.least == c.most) keep_positive(edge, inside_a + room_a, inside_b + room_b, some);

@@ -17,14 +17,15 @@
 #include <cstdint>
 #include <limits>
 #include <penumbra/penumbra_wedge/clip.hpp>
+#include <penumbra/penumbra_wedge/lit_side.hpp>
 #include <penumbra/penumbra_wedge/point_tile.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <vector>
 
 namespace penumbra {
 
-/// How often a face or an edge counts for points of a box: at least, at most, and without the faces that they do not all
-/// see alike.
+/// How often a face or an edge counts for points of a box: at least, at most, and without the faces that they do not
+/// all see alike.
 struct CoefficientRange {
     int least, most, steady;
 };
@@ -99,6 +100,10 @@ class WedgeIndex {
                 at = node.skip;
                 continue;
             }
+            if (node.piece_root && stands_aside(tile, points, at)) {
+                at = node.skip;
+                continue;
+            }
             if (node.piece_root && !visitor.begin_piece(node.box, node.simple, node.solid)) return false;
             if (node.in_piece && has_no_silhouette(tile, node)) {
                 at = node.skip;
@@ -149,8 +154,15 @@ class WedgeIndex {
         return std::min(tile.radius, glm::dot(normal, half)) +
                T(4) * std::numeric_limits<T>::epsilon() * glm::dot(normal, way + half);
     }
+    /// Whether a piece is a convex solid and the points are on its lit side.
+    template <class Points>
+    bool stands_aside(const PointTile<T>& tile, const Points& points, std::uint32_t piece) const {
+        const Node& node = tree_.nodes[piece];
+        return from_ == SilhouetteFrom::point && node.simple && node.solid && touches(tile, node.box) &&
+               detail::hides_nothing(tree_, piece, tile.box, points, tile.light, tolerance_);
+    }
     bool touches(const PointTile<T>& tile, const Box3<T>& box) const {
-        return overlaps({tile.box.min - tolerance_ * T(2), tile.box.max + tolerance_ * T(2)}, box);
+        return detail::touch({tile.box.min - tolerance_ * T(2), tile.box.max + tolerance_ * T(2)}, box);
     }
 
     bool has_no_silhouette(const PointTile<T>& tile, const Node& node) const {
@@ -161,8 +173,9 @@ class WedgeIndex {
             const Vec3<T> middle = (node.box.min + node.box.max) * T(0.5), way = tile.center - middle;
             const Vec3<T> a = way * node.normal_min, b = way * node.normal_max;
             const Vec3<T> low = glm::min(a, b), high = glm::max(a, b);
-            const T room = spread(tile, glm::max(glm::abs(node.normal_min), glm::abs(node.normal_max)),
-                                  glm::abs(way) + (node.box.max - middle));
+            const T room =
+                spread(tile, glm::max(detail::magnitudes(node.normal_min), detail::magnitudes(node.normal_max)),
+                       detail::magnitudes(way) + (node.box.max - middle));
             const T nearest = low.x + low.y + low.z + node.offset_min - room;
             const T farthest = high.x + high.y + high.z + node.offset_max + room;
             const bool away = farthest<-tolerance_, not_away = nearest> - tolerance_;
@@ -213,10 +226,10 @@ class WedgeIndex {
     void find_coefficients(const PointTile<T>& tile, const Face& face, Coefficients& c, std::size_t f) const {
         const bool from_light = from_ == SilhouetteFrom::light_center;
         const T middle = glm::dot(face.normal, tile.center - face.a);
-        const T room = spread(tile, glm::abs(face.normal), glm::abs(tile.center - face.a));
+        const T room = spread(tile, detail::magnitudes(face.normal), detail::magnitudes(tile.center - face.a));
         const bool away_all = middle + room < -tolerance_;
         const bool front_all = middle - room > (face.solid ? -tolerance_ : tolerance_);
-        const bool one_side = from_light ? !touches(tile, box_of(face)) : away_all || front_all;
+        const bool one_side = from_light ? !touches(tile, detail::box_of(face)) : away_all || front_all;
         const bool before_all = face.depth_max < tile.box.min.z, before_none = face.depth_max >= tile.box.max.z;
         c.uniform[f] = before_none || (before_all && one_side);
         c.value[f] = before_none ? T(0) : from_light ? static_cast<T>(face.from_light) : coefficient_of(face, middle);
@@ -232,10 +245,6 @@ class WedgeIndex {
             lanes[i] = face.depth_max < tile.depth[i] ? value : T(0);
         }
     }
-    static bool overlaps(const Box3<T>& a, const Box3<T>& b) {
-        return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y &&
-               a.min.z <= b.max.z && a.max.z >= b.min.z;
-    }
     template <class Visitor, class Points>
     bool visit_candidates_of(const PointTile<T>& tile, const Points& points, const Node& node, Visitor& visitor) const {
         using Range = CoefficientRange;
@@ -247,17 +256,17 @@ class WedgeIndex {
             range = {0, 0, 0};
             if (face.depth_min >= tile.box.max.z) continue;  // beyond all points
             const T middle = glm::dot(face.normal, tile.center - face.a);
-            const T room = spread(tile, glm::abs(face.normal), glm::abs(tile.center - face.a));
+            const T room = spread(tile, detail::magnitudes(face.normal), detail::magnitudes(tile.center - face.a));
             const bool away_all = middle + room<-tolerance_, away_none = middle - room> - tolerance_;
             const bool front_all = middle - room > tolerance_;
             if (away_all || (face.solid ? away_none : front_all)) {
                 range = range_of(face, away_all, front_all);
             } else if (!find_range(face, points, range)) {
-                if (overlaps(tile.box, box_of(face))) return false;
+                if (detail::touch(tile.box, detail::box_of(face))) return false;
                 const int fixed = face.from_light;
                 if (from_ == SilhouetteFrom::point)
                     range = {face.solid || !away_none ? -1 : 0, face.solid ? 0 : 1, 0};
-                else if (touches(tile, box_of(face)))
+                else if (touches(tile, detail::box_of(face)))
                     range = {std::min(fixed, 0), std::max(fixed, 0), 0};
                 else
                     range = {fixed, fixed, fixed};
@@ -296,7 +305,6 @@ class WedgeIndex {
         range = range_of(face, away, front);
         return true;
     }
-    static Box3<T> box_of(const Face& face) { return extend(extend(extend(empty_box<T>(), face.a), face.b), face.c); }
 
     /// Fills in how often an edge counts. In how many lanes it does.
     static std::size_t count_lanes(const PointTile<T>& tile, const Coefficients& c, std::size_t left, std::size_t right,
@@ -335,7 +343,7 @@ class WedgeIndex {
     template <class Visitor>
     std::size_t cut_face(const PointTile<T>& tile, const Face& face, Visitor& visitor) const {
         const Vec3<T> loop[3] = {face.a, face.b, face.c};
-        const bool one_side = from_ == SilhouetteFrom::light_center && !touches(tile, box_of(face));
+        const bool one_side = from_ == SilhouetteFrom::light_center && !touches(tile, detail::box_of(face));
         std::size_t used = 0;
         for (std::size_t i = 0; i < tile.count; ++i) {
             const Vec3<T> point = tile[i];

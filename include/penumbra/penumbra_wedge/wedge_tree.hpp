@@ -21,6 +21,18 @@ struct WedgeFace {
     std::int8_t from_light;
 };
 
+template <class T>
+Box3<T> box_of(const WedgeFace<T>& face) {
+    return extend(extend(extend(empty_box<T>(), face.a), face.b), face.c);
+}
+
+/// Whether two boxes have a point in common.
+template <class T>
+bool touch(const Box3<T>& a, const Box3<T>& b) {
+    return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y && a.min.z <= b.max.z &&
+           a.max.z >= b.min.z;
+}
+
 /// An edge from a to b and the faces on its two sides: 0 is no_face, 1 cap_face, from 2 on those of its leaf.
 template <class T>
 struct WedgeEdge {

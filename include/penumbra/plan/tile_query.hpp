@@ -142,8 +142,8 @@ class TileQuery {
     bool answer_together(const Group& group, const Box3<T>& box, T most_doubt) {
         const Box3<T> box_ls = seen_from(frame_, box);
         Variation<T> variation;
-        const T most = group.count >= 2 * effort_ ? worth_sharing * tolerance_ : T(0);
-        if (box_ls.min.z > T(0)) variation = vary_(box_ls, most, group.points, group.count);
+        const T most_known = group.count >= 2 * effort_ ? worth_sharing * tolerance_ : T(0);
+        if (box_ls.min.z > T(0)) variation = vary_(box_ls, most_known, group.points, group.count);
         if (!variation.known) return false;
         if (variation.lit) {
             see_all(group);
