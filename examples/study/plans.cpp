@@ -44,15 +44,16 @@ double median_ms(int count, const Work& work) {
     return median(ms);
 }
 
-/// Bands of neighbours, spread over the picture: few where a point takes long.
-Points bands_of(const View& view, double ns_per_point) {
-    constexpr std::size_t band = 8192;
-    const std::size_t all = view.points.size(), most = std::max<std::size_t>(all / band, 1);
-    const auto affordable = static_cast<std::size_t>(0.25e9 / (ns_per_point * band)) + 1;
-    const std::size_t bands = std::min(most, std::max<std::size_t>(std::min<std::size_t>(affordable, 32), 6));
+/// Runs of neighbours, as many as are answered together, spread evenly over the picture: all of it, unless a point takes
+/// long.
+Points runs_of(const View& view, double ns_per_point) {
+    constexpr std::size_t run = 1024;
+    const std::size_t all = (view.points.size() + run - 1) / run;
+    const auto affordable = static_cast<std::size_t>(0.5e9 / (ns_per_point * run)) + 1;
+    const std::size_t runs = std::min(all, std::max<std::size_t>(affordable, 128));
     Points points;
-    for (std::size_t k = 0; k < bands; ++k) {
-        const std::size_t first = all * k / bands, end = std::min(first + band, all);
+    for (std::size_t k = 0; k < runs; ++k) {
+        const std::size_t first = all * k / runs * run, end = std::min(first + run, view.points.size());
         points.insert(points.end(), view.points.begin() + static_cast<std::ptrdiff_t>(first),
                       view.points.begin() + static_cast<std::ptrdiff_t>(end));
     }
@@ -132,7 +133,7 @@ PlanRow measure(const Scene& scene, const View& view, const std::string& method,
     const std::size_t few = std::min(a.size(), view.points.size());
     const auto first = Clock::now();
     full.visibility(view.points.data() + (view.points.size() - few) / 2, few, a.data());
-    const Points points = bands_of(view, seconds_since(first) * 1e9 / static_cast<double>(few));
+    const Points points = runs_of(view, seconds_since(first) * 1e9 / static_cast<double>(few));
     row.points = points.size();
     a.resize(points.size()), b.resize(points.size());
     std::vector<double> full_s, planned_s;

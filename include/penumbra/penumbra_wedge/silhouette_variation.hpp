@@ -86,12 +86,14 @@ class SweptArea {
     /// An edge, and how often it counts.
     bool edge(Vec3<T> a, Vec3<T> b, const CoefficientRange& coefficient) {
         if (++candidates_ > most_edges) return false;
+        const Vec3<T> begin = a, end = b;
         if (!view_.clip_to_box(a, b)) return true;
         if (view_.is_close(view_.room(a, b))) return false;
         const T shift = view_.shift_of(a, b);
         if (!view_.clip_to_rim(a, b, shift)) return true;
+        middles_[edges_] = begin.x + end.x;
         SeenEdge& seen = seen_[edges_++];
-        seen.a = a, seen.b = b, seen.whole = view_.sweep(a, b), seen.shift = shift;
+        seen.begin = begin, seen.end = end, seen.a = a, seen.b = b, seen.whole = view_.sweep(a, b), seen.shift = shift;
         seen.inner = view_.inner_part(a, b, seen.whole, shift);
         seen.sure = saturated_ratio(seen.whole.times(seen.inner), seen.whole.times());
         seen.hidden = seen.covered = T(0);
@@ -149,7 +151,8 @@ class SweptArea {
         std::size_t first, end;  ///< its edges
     };
     struct SeenEdge {
-        Vec3<T> a, b;  ///< its ends
+        Vec3<T> begin, end;  ///< of all of it
+        Vec3<T> a, b;        ///< the ends of what some point sees before the light
         EdgeSweep<T> whole;
         EdgePart<T> inner;  ///< what all points have before the light
         T sure;             ///< the share of its slope that counts in any case
@@ -188,15 +191,38 @@ class SweptArea {
                 doubts[seen_[e].piece] += half_length(share_of(seen_[e]), seen_[e].whole.slope);
         for (std::size_t k = 0; k < pieces_; ++k) {
             SeenPiece& piece = pieces_seen_[k];
-            piece.is_steady = may_be_steady(piece) && !piece.is_turned && piece.turning < doubts[k];
+            piece.is_steady = may_be_steady(piece) && !piece.is_turned && T(2) * piece.turning < doubts[k];
         }
+        if (overlap_ == OverlapChange::outline) find_joints();
         for (std::size_t e = 0; e < edges_; ++e) {
             SeenEdge& edge = seen_[e];
             const SeenPiece& own = pieces_seen_[edge.piece];
+            if (edge.covered >= T(1)) continue;
             if (own.is_steady && edge.coefficient.steady == 0)
                 edge.bending = Vec2<T>(T(0), T(0));
             else if (is_sum(own) && !own.is_alone)
                 find_hidden_part(edge, own);
+        }
+    }
+    /// Where one convex piece ends and another begins, their outline has no edge.
+    void find_joints() {
+        for (std::size_t e = 0; e < edges_; ++e) {
+            SeenEdge& edge = seen_[e];
+            const SeenPiece& own = pieces_seen_[edge.piece];
+            if (own.is_alone || !is_sum(own) || edge.coefficient.least != edge.coefficient.most) continue;
+            for (std::size_t k = own.end; k < edges_; ++k) {
+                if (middles_[k] != middles_[e]) continue;
+                SeenEdge& other = seen_[k];
+                const bool is_same = other.begin == edge.begin && other.end == edge.end;
+                if (!is_same && !(other.begin == edge.end && other.end == edge.begin)) continue;
+                const CoefficientRange& c = other.coefficient;
+                const int turned = is_same ? -edge.coefficient.least : edge.coefficient.least;
+                if (!is_sum(pieces_seen_[other.piece]) || c.least != turned || c.most != turned) continue;
+                for (SeenEdge* joined : {&edge, &other}) {
+                    joined->covered = T(1), joined->sure = T(0);
+                    joined->bending = Vec2<T>(T(0), T(0));
+                }
+            }
         }
     }
     void find_hidden_part(SeenEdge& edge, const SeenPiece& own) const {
@@ -291,6 +317,7 @@ class SweptArea {
     std::size_t pieces_ = 0, edges_ = 0, candidates_ = 0;
     std::array<SeenPiece, most_pieces> pieces_seen_;
     std::array<SeenEdge, most_edges> seen_;
+    std::array<T, most_edges> middles_;  ///< of edges, one coordinate: where they differ, so do the edges
 };
 
 /// Points of a box, brought to an index's units when they are needed.

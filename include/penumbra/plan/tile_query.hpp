@@ -58,8 +58,10 @@ class TileQuery {
   private:
     static constexpr std::size_t most = 1024, tile = 64, parts = 4;
     static constexpr std::size_t fewest = 4;  ///< that are answered together
-    static constexpr int most_gaps = 3;       ///< at which a part of a tile is split
-    static constexpr int most_cells = 16;     ///< along an axis, in which points share answers
+    /// In which points share answers, in efforts; where it takes more, parts of them are tried.
+    static constexpr std::size_t most_cells_of_tiles = 20, most_cells_of_tile = 32;
+    static constexpr int most_gaps = 3;    ///< at which a part of a tile is split
+    static constexpr int most_cells = 16;  ///< along an axis, in which points share answers
     static constexpr std::uint16_t none = 0xffff;
     static constexpr T smallest = T(1e-30);    ///< what extents are taken for that are none
     static constexpr T worth_sharing = T(12);  ///< in tolerances, from a box's middle to its corners
@@ -116,7 +118,7 @@ class TileQuery {
         const Group group{points_ + first, count, first, nullptr};
         if (tiles == 1) {
             answer(group, box, most_gaps);
-        } else if (answer_together(group, box, T(4))) {
+        } else if (answer_together(group, box, most_cells_of_tiles * effort_)) {
             failures_ = 0;
         } else {
             failures_ = std::min<std::size_t>(2 * failures_ + 1, 15);
@@ -126,7 +128,7 @@ class TileQuery {
     }
     void answer(const Group& group, const Box3<T>& box, int gaps) {
         if (group.count >= fewest) {
-            if (answer_together(group, box, std::numeric_limits<T>::max())) return;
+            if (answer_together(group, box, most_cells_of_tile * effort_)) return;
             if (gaps > 0 && split_at_gap(group, box, gaps)) return;
             if (!group.places && group.count == tile) {
                 for (std::size_t k = 0; k < 4; ++k) {
@@ -136,10 +138,10 @@ class TileQuery {
                 return;
             }
         }
-        for (std::size_t i = 0; i < group.count; ++i) ask(group.place(i), group.place(i));
+        for (std::size_t i = 0; i < group.count; ++i) assign(group.place(i), query(group.place(i)), T(0));
     }
-    /// False if not known well enough: more than so many tolerances are in doubt, for each query that this took.
-    bool answer_together(const Group& group, const Box3<T>& box, T most_doubt) {
+    /// False if not known well enough for that many cells to do.
+    bool answer_together(const Group& group, const Box3<T>& box, std::size_t most_cells_used) {
         const Box3<T> box_ls = seen_from(frame_, box);
         Variation<T> variation;
         const T most_known = group.count >= 2 * effort_ ? worth_sharing * tolerance_ : T(0);
@@ -149,16 +151,13 @@ class TileQuery {
             see_all(group);
             return true;
         }
-        set_slope(variation);
+        slope_ = frame_.u * variation.slope.x + frame_.v * variation.slope.y + frame_.normal * variation.slope.z;
         const T in_doubt = doubt(variation, box_ls);
         if (in_doubt <= tolerance_) {
-            const std::size_t by = group.place(group.count / 2);
-            for (std::size_t i = 0; i < group.count; ++i) ask(group.place(i), by);
+            share_answer(group, group.count / 2);
             return true;
         }
-        if (!(tolerance_ > T(0)) || in_doubt > most_doubt * static_cast<T>(effort_) * tolerance_) return false;
-        share_answers(group, variation);
-        return true;
+        return tolerance_ > T(0) && share_answers(group, variation, most_cells_used);
     }
     void see_all(const Group& group) {
         if (!group.places) {
@@ -208,7 +207,7 @@ class TileQuery {
 
     /// Puts the points into cells in which visibility changes by no more than the tolerance from the middle to a side,
     /// and asks for the one nearest to the middle; others answer with it if they may.
-    void share_answers(const Group& group, const Variation<T>& variation) {
+    bool share_answers(const Group& group, const Variation<T>& variation, std::size_t most_cells_used) {
         const std::size_t count = group.count;
         const Vec2<T> d = variation.direction;
         const Vec3<T> along = frame_.u * d.x + frame_.v * d.y, across = frame_.v * d.x - frame_.u * d.y;
@@ -226,6 +225,7 @@ class TileQuery {
         const Cells cells =
             fewest_cells(variation.along * (in_x.y - in_x.x), variation.across * (in_y.y - in_y.x), left);
         const int columns = cells.columns, rows = cells.rows;
+        if (static_cast<std::size_t>(columns * rows) > most_cells_used) return false;
         const T width = std::max(in_x.y - in_x.x, smallest) / static_cast<T>(columns);
         const T height = std::max(in_y.y - in_y.x, smallest) / static_cast<T>(rows);
         const T per_width = T(1) / width, per_height = T(1) / height, middle_z = (in_z.x + in_z.y) * T(0.5);
@@ -257,8 +257,9 @@ class TileQuery {
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t point = group.place(i), by = group.place(chosen[static_cast<std::size_t>(cell[i])]);
             const bool may = away[i] <= tolerance_;
-            share(point, may ? by : point, may ? step[i] : T(0));
+            assign(point, query(may ? by : point), may ? step[i] : T(0));
         }
+        return true;
     }
     /// From least to greatest, eight at a time, so that it vectorises.
     static Vec2<T> range(const std::array<T, parts * tile>& values, std::size_t count) {
@@ -292,24 +293,33 @@ class TileQuery {
         }
         return best;
     }
-    /// How visibility changes between points that share answers, in world space.
-    void set_slope(const Variation<T>& variation) {
-        const Vec3<T>& s = variation.slope;
-        slope_ = frame_.u * s.x + frame_.v * s.y + frame_.normal * s.z;
-    }
-    /// Has a point answered by another's query, or its own.
-    void ask(std::size_t point, std::size_t by) {
-        share(point, by, point == by ? T(0) : glm::dot(slope_, points_[point] - points_[by]));
-    }
-    /// The same, where visibility differs by `step`.
-    void share(std::size_t point, std::size_t by, T step) {
-        if (asked_at_[by] == none) {
-            asked_at_[by] = static_cast<std::uint16_t>(queries_);
-            queried_[queries_++] = static_cast<std::uint16_t>(by);
+    /// Has all points answered by the query of one.
+    void share_answer(const Group& group, std::size_t by) {
+        const Vec3<T> from = group.points[by], slope = slope_;
+        const std::uint16_t asked = query(group.place(by));
+        if (group.places) {
+            for (std::size_t i = 0; i < group.count; ++i)
+                assign(group.places[i], asked, glm::dot(slope, group.points[i] - from));
+        } else {
+            T* const steps = &steps_[group.first];
+            for (std::size_t i = 0; i < group.count; ++i) steps[i] = glm::dot(slope, group.points[i] - from);
+            std::fill_n(&answered_by_[group.first], group.count, asked);
         }
-        answered_by_[point] = asked_at_[by];
-        steps_[point] = step;
-        if (answers_) answers_[point] = point == by ? PointAnswer::own : PointAnswer::shared;
+        for (std::size_t i = 0; i < group.count && answers_; ++i) tell(group.place(i), 1, PointAnswer::shared);
+        tell(group.place(by), 1, PointAnswer::own);
+    }
+    /// The query of a point: which of all it is.
+    std::uint16_t query(std::size_t point) {
+        if (asked_at_[point] == none) {
+            asked_at_[point] = static_cast<std::uint16_t>(queries_);
+            queried_[queries_++] = static_cast<std::uint16_t>(point);
+        }
+        return asked_at_[point];
+    }
+    /// Has a point answered by a query, from which its visibility differs by `step`.
+    void assign(std::size_t point, std::uint16_t query, T step) {
+        answered_by_[point] = query, steps_[point] = step;
+        if (answers_) answers_[point] = queried_[query] == point ? PointAnswer::own : PointAnswer::shared;
     }
     void tell(std::size_t first, std::size_t count, PointAnswer how) {
         if (answers_) std::fill_n(answers_ + first, count, how);
