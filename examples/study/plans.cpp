@@ -49,7 +49,7 @@ double median_ms(int count, const Work& work) {
 Points runs_of(const View& view, double ns_per_point) {
     constexpr std::size_t run = 1024;
     const std::size_t all = (view.points.size() + run - 1) / run;
-    const auto affordable = static_cast<std::size_t>(0.5e9 / (ns_per_point * run)) + 1;
+    const auto affordable = static_cast<std::size_t>(0.3e9 / (ns_per_point * run)) + 1;
     const std::size_t runs = std::min(all, std::max<std::size_t>(affordable, 128));
     Points points;
     for (std::size_t k = 0; k < runs; ++k) {

@@ -92,8 +92,8 @@ class TileQuery {
             if (together) split(t, many, count);
             t += many;
         }
-        std::array<Vec3<T>, most> asked{};
-        std::array<T, most> answered{};
+        std::array<Vec3<T>, most> asked;
+        std::array<T, most> answered;
         for (std::size_t q = 0; q < queries_; ++q) asked[q] = points[queried_[q]];
         shadow_.visibility(asked.data(), queries_, answered.data());
         for (std::size_t i = 0; i < count; ++i)
@@ -283,7 +283,7 @@ class TileQuery {
     /// Cells from whose middles to corners no more than `doubtful` is in doubt, of what is from side to side.
     static Cells fewest_cells(T along, T across, T doubtful) {
         Cells best = {most_cells, most_cells};
-        for (int rows = 1; rows <= most_cells; ++rows) {
+        for (int rows = 1; rows <= most_cells && rows < best.columns * best.rows; ++rows) {
             const T rest = T(2) * doubtful - across / static_cast<T>(rows);
             if (!(rest > T(0))) continue;
             const T columns = along / rest;
