@@ -44,7 +44,7 @@ double median_ms(int count, const Work& work) {
     return median(ms);
 }
 
-/// Runs of neighbours, as many as are answered together, spread evenly over the picture: all of it, unless a point takes
+/// Runs of neighbours, as many as are answered together, spread evenly over the picture: all of it unless that takes
 /// long.
 Points runs_of(const View& view, double ns_per_point) {
     constexpr std::size_t run = 1024;
