@@ -29,6 +29,7 @@
 #include <penumbra/penumbra_wedge/edge_sweep.hpp>
 #include <penumbra/penumbra_wedge/edge_union.hpp>
 #include <penumbra/penumbra_wedge/fixed_silhouettes.hpp>
+#include <penumbra/penumbra_wedge/hidden_edges.hpp>
 #include <penumbra/penumbra_wedge/interval_blending.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/lit_side.hpp>

@@ -90,6 +90,23 @@ void check_variations(test::SceneKind kind, const Make& make) {
     CHECK(seen.closest > 0.05);
 }
 
+/// Parallelograms that join at their sides, together or one by one.
+void add_fold(std::vector<Mesh<double>>& casters, Vec3<double> at, double size, test::Random& random) {
+    const Vec3<double> along = random.point(-1.0, 1.0) * size;
+    const bool is_one = random.whole(0, 1) == 0;
+    Mesh<double> mesh;
+    for (int k = random.whole(2, 4); k > 0; --k) {
+        const Vec3<double> next = at + random.point(-1.0, 1.0) * size;
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {at, at + along, next + along, next});
+        mesh.triangles.emplace_back(first, first + 1, first + 2),
+            mesh.triangles.emplace_back(first, first + 2, first + 3);
+        at = next;
+        if (!is_one) casters.push_back(mesh), mesh = {};
+    }
+    if (is_one) casters.push_back(mesh);
+}
+
 /// Convex casters, so many before a light that few of their edges are in nobody's way, and receivers behind.
 test::PlanScene<double> crowd(std::uint32_t number) {
     test::PlanScene<double> scene = test::random_scene<double>(number, test::SceneKind::flat_layers);
@@ -101,8 +118,20 @@ test::PlanScene<double> crowd(std::uint32_t number) {
     for (int k = 0; k < count; ++k) {
         const double size = random.in(0.1, 1.5);
         const Vec3<double> at = frame.to_world(random.point(-1.0, 1.0) + Vec3<double>(0.0, 0.0, random.in(1.5, 4.0)));
-        if (random.whole(0, 1) == 0) {
+        const int kind = random.whole(0, 4);
+        if (kind < 2) {
             scene.casters.push_back(test::box_mesh(at, at + random.point(0.1, 1.0) * size));
+            continue;
+        }
+        if (kind == 2) {
+            Mesh<double> solid = test::icosphere<double>(random.whole(0, 1));
+            const Vec3<double> half = random.point(0.2, 1.0) * size;
+            for (Vec3<double>& p : solid.positions) p = at + p * half;
+            scene.casters.push_back(solid);
+            continue;
+        }
+        if (kind == 3) {
+            add_fold(scene.casters, at, size, random);
             continue;
         }
         const Vec3<double> u = random.point(-1.0, 1.0) * size, v = random.point(-1.0, 1.0) * size;

@@ -43,33 +43,6 @@ struct EdgeSweep {
     T times() const { return times({T(0), T(1)}); }
 };
 
-/// Parts of an edge, at most so many, that may overlap.
-template <class T, std::size_t most_parts>
-class EdgeCover {
-  public:
-    void add(const EdgePart<T>& part) {
-        if (!(part.first < part.last)) return;
-        std::size_t at = count_++;
-        for (; at > 0 && parts_[at - 1].first > part.first; --at) parts_[at] = parts_[at - 1];
-        parts_[at] = part;
-    }
-    /// A measure of all of them together, within a part; of one, measure(part).
-    template <class Measure>
-    T sum(const EdgePart<T>& within, const Measure& measure) const {
-        T sum = T(0), covered_to = within.first;
-        for (std::size_t k = 0; k < count_; ++k) {
-            const EdgePart<T> part = {std::max(parts_[k].first, covered_to), std::min(parts_[k].last, within.last)};
-            if (!(part.first < part.last)) continue;
-            sum += measure(part), covered_to = part.last;
-        }
-        return sum;
-    }
-
-  private:
-    std::array<EdgePart<T>, most_parts> parts_;  ///< in the order in which they begin
-    std::size_t count_ = 0;
-};
-
 /// By how much a slope may differ anywhere in a box: across the axis and in depth.
 template <class T>
 struct SlopeRange {

@@ -17,6 +17,7 @@
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/penumbra_wedge/edge_sweep.hpp>
+#include <penumbra/penumbra_wedge/hidden_edges.hpp>
 #include <penumbra/penumbra_wedge/lit_mesh.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
 
@@ -29,19 +30,12 @@ struct LightOutline {
     bool is_round;
 };
 
-/// What is made of silhouettes that may overlap.
-enum class OverlapChange {
-    none,    ///< nothing that is known: masks
-    sum,     ///< their sum, limited to the light
-    outline  ///< the area of all together
-};
-
 /// Adds up what edges sweep. All in the index's units.
 template <class T>
 class SweptArea {
   public:
     /// Fewer than unions keep: what is cut at a point's depth comes on top.
-    static constexpr std::size_t most_edges = 192, most_pieces = 32;
+    static constexpr std::size_t most_edges = 192, most_pieces = HiddenEdges<T>::most_pieces;
 
     /// Gives up where what is in doubt is more than `most` as a point moves from the middle of the tile's box to its
     /// farthest corner, and where there are more than most_edges.
@@ -54,7 +48,7 @@ class SweptArea {
             const PointTile<T>& tile = view_.tile();
             const bool beyond = box.max.z >= tile.box.min.z;
             const Rect2<T> rect = beyond ? tile.light : intersect(project_box(box, tile.box), tile.light);
-            SeenPiece& piece = pieces_seen_[pieces_];
+            SeenPiece<T>& piece = pieces_seen_[pieces_];
             piece.rect = rect, piece.first = piece.end = edges_, piece.turning = T(0);
             piece.is_simple = from_point_ && simple, piece.is_wound_once = simple || solid;
             piece.is_alone = true, piece.is_turned = piece.is_steady = false;
@@ -63,10 +57,10 @@ class SweptArea {
                 piece.is_alone = pieces_seen_[k].is_alone = false;
             }
         } else {
-            for (SeenPiece& piece : pieces_seen_) piece.is_alone = false;
+            for (SeenPiece<T>& piece : pieces_seen_) piece.is_alone = false;
         }
         ++pieces_;
-        return overlap_ != OverlapChange::none || (pieces_ <= most_pieces && is_exact(pieces_seen_[pieces_ - 1]));
+        return overlap_ != OverlapChange::none || (pieces_ <= most_pieces && seen_exactly(pieces_seen_[pieces_ - 1]));
     }
 
     /// A face that the points do not all see from one side. Without it its piece blocks less, by no more than the
@@ -76,7 +70,7 @@ class SweptArea {
         const PointTile<T>& tile = view_.tile();
         const T least = tile.box.min.z, p = tile.box.max.z;
         const T room_a = least - a.z, room_b = least - b.z, room_c = least - c.z;
-        SeenPiece& piece = pieces_seen_[pieces_ - 1];
+        SeenPiece<T>& piece = pieces_seen_[pieces_ - 1];
         piece.is_turned = piece.is_turned || view_.is_close(std::min({room_a, room_b, room_c}));
         if (piece.is_turned || !view_.lands_on_light(a, b, c)) return;
         const Vec3<T> normal = glm::cross(b - a, c - a);
@@ -91,8 +85,7 @@ class SweptArea {
         if (view_.is_close(view_.room(a, b))) return false;
         const T shift = view_.shift_of(a, b);
         if (!view_.clip_to_rim(a, b, shift)) return true;
-        middles_[edges_] = begin.x + end.x;
-        SeenEdge& seen = seen_[edges_++];
+        SeenEdge<T>& seen = seen_[edges_++];
         seen.begin = begin, seen.end = end, seen.a = a, seen.b = b, seen.whole = view_.sweep(a, b), seen.shift = shift;
         seen.inner = view_.inner_part(a, b, seen.whole, shift);
         seen.sure = saturated_ratio(seen.whole.times(seen.inner), seen.whole.times());
@@ -140,49 +133,21 @@ class SweptArea {
     }
 
   private:
-    struct SeenPiece {
-        Rect2<T> rect;
-        bool is_simple;          ///< covers nothing twice
-        bool is_wound_once;      ///< winds around everything in the same sense
-        bool is_alone;           ///< covers nothing that another piece covers
-        bool is_turned;          ///< by a face that is too near to say what it measures on the light
-        T turning;               ///< faces that not all points see alike, as areas on the light
-        bool is_steady;          ///< taken without these: that is less than what their edges leave in doubt
-        std::size_t first, end;  ///< its edges
-    };
-    struct SeenEdge {
-        Vec3<T> begin, end;  ///< of all of it
-        Vec3<T> a, b;        ///< the ends of what some point sees before the light
-        EdgeSweep<T> whole;
-        EdgePart<T> inner;  ///< what all points have before the light
-        T sure;             ///< the share of its slope that counts in any case
-        Vec2<T> bending;    ///< by how much its slope may differ, across the axis and in depth
-        T hidden;           ///< the share that other pieces may hide
-        T covered;          ///< the share that another piece surely hides
-        T shift;            ///< how far it may be from where the middle sees it
-        CoefficientRange coefficient;
-        std::uint16_t piece;
-    };
     /// The share of an edge's slope that counts: middle ± half.
     struct Share {
         T middle, half;
     };
 
-    static bool is_exact(const SeenPiece& piece) { return piece.is_simple && piece.is_alone; }
-    /// Whether what a piece blocks is the sum over its edges where no other piece is.
-    bool is_sum(const SeenPiece& piece) const {
-        return is_exact(piece) || (piece.is_simple && overlap_ == OverlapChange::outline);
-    }
     /// Whether a part of what it blocks is what faces that all points see alike do.
-    bool may_be_steady(const SeenPiece& piece) const {
-        return is_sum(piece) || (from_point_ && piece.is_wound_once && overlap_ == OverlapChange::outline);
+    bool may_be_steady(const SeenPiece<T>& piece) const {
+        return is_sum(piece, overlap_) || (from_point_ && piece.is_wound_once && overlap_ == OverlapChange::outline);
     }
 
     /// What of each edge counts in any case, and what other pieces may hide; which pieces to take without their faces
     /// that not all points see alike. What a convex solid still blocks then has the same edges from everywhere.
     void find_what_is_sure() {
         if (pieces_ > most_pieces) {
-            for (SeenPiece& piece : pieces_seen_) piece.is_simple = false;
+            for (SeenPiece<T>& piece : pieces_seen_) piece.is_simple = false;
             return;
         }
         std::array<T, most_pieces> doubts{};
@@ -190,106 +155,26 @@ class SweptArea {
             if (seen_[e].coefficient.least != seen_[e].coefficient.most)
                 doubts[seen_[e].piece] += half_length(share_of(seen_[e]), seen_[e].whole.slope);
         for (std::size_t k = 0; k < pieces_; ++k) {
-            SeenPiece& piece = pieces_seen_[k];
+            SeenPiece<T>& piece = pieces_seen_[k];
             piece.is_steady = may_be_steady(piece) && !piece.is_turned && T(2) * piece.turning < doubts[k];
         }
-        if (overlap_ == OverlapChange::outline) find_joints();
+        const HiddenEdges<T> hidden(view_, overlap_, pieces_seen_.data(), pieces_, seen_.data(), edges_);
+        hidden.find_joints();
         for (std::size_t e = 0; e < edges_; ++e) {
-            SeenEdge& edge = seen_[e];
-            const SeenPiece& own = pieces_seen_[edge.piece];
+            SeenEdge<T>& edge = seen_[e];
+            const SeenPiece<T>& own = pieces_seen_[edge.piece];
             if (edge.covered >= T(1)) continue;
             if (own.is_steady && edge.coefficient.steady == 0)
                 edge.bending = Vec2<T>(T(0), T(0));
-            else if (is_sum(own) && !own.is_alone)
-                find_hidden_part(edge, own);
+            else if (is_sum(own, overlap_) && !own.is_alone)
+                hidden.find_part(edge);
         }
     }
-    /// Where one convex piece ends and another begins, their outline has no edge.
-    void find_joints() {
-        for (std::size_t e = 0; e < edges_; ++e) {
-            SeenEdge& edge = seen_[e];
-            const SeenPiece& own = pieces_seen_[edge.piece];
-            if (own.is_alone || !is_sum(own) || edge.coefficient.least != edge.coefficient.most) continue;
-            for (std::size_t k = own.end; k < edges_; ++k) {
-                if (middles_[k] != middles_[e]) continue;
-                SeenEdge& other = seen_[k];
-                const bool is_same = other.begin == edge.begin && other.end == edge.end;
-                if (!is_same && !(other.begin == edge.end && other.end == edge.begin)) continue;
-                const CoefficientRange& c = other.coefficient;
-                const int turned = is_same ? -edge.coefficient.least : edge.coefficient.least;
-                if (!is_sum(pieces_seen_[other.piece]) || c.least != turned || c.most != turned) continue;
-                for (SeenEdge* joined : {&edge, &other}) {
-                    joined->covered = T(1), joined->sure = T(0);
-                    joined->bending = Vec2<T>(T(0), T(0));
-                }
-            }
-        }
-    }
-    void find_hidden_part(SeenEdge& edge, const SeenPiece& own) const {
-        EdgeCover<T, most_pieces> hidden, covered;
-        for (std::size_t k = 0; k < pieces_; ++k) {
-            const SeenPiece& other = pieces_seen_[k];
-            if (k == edge.piece || is_apart(own.rect, other.rect)) continue;
-            EdgePart<T> part = part_within(edge.whole, other.rect, edge.shift);
-            EdgePart<T> inside = part;
-            bool is_sure = false;
-            for (std::size_t e = other.first; other.is_simple && e < other.end && part.first < part.last; ++e) {
-                cut_by_border(edge, seen_[e], part, inside);
-                is_sure = is_sure || (seen_[e].coefficient.steady != 0 && seen_[e].inner.first < seen_[e].inner.last);
-            }
-            hidden.add(part);
-            if (is_sure && overlap_ == OverlapChange::outline) covered.add(inside);
-        }
-        const EdgePart<T> whole = {T(0), T(1)};
-        const auto times = [&](const EdgePart<T>& part) { return edge.whole.times(part); };
-        const auto in_space = [&](const EdgePart<T>& part) {
-            return view_.not_landed(edge.a, edge.b, part.last) - view_.not_landed(edge.a, edge.b, part.first);
-        };
-        const T all = edge.whole.times(), in_whole = hidden.sum(whole, times);
-        const T in_inner = hidden.sum(edge.inner, times), in_covered = covered.sum(whole, times);
-        edge.bending *= std::max(T(1) - covered.sum(whole, in_space), T(0));
-        edge.covered = saturated_ratio(in_covered, all);
-        edge.hidden = std::min(saturated_ratio(in_whole - in_covered, all), T(1) - edge.covered);
-        edge.sure = clamp(edge.sure - saturated_ratio(in_inner, all), T(0), T(1) - edge.hidden - edge.covered);
-    }
-    /// Leaves of `some` what may lie inside an edge of a convex piece, and of `all` what surely does, from wherever in
-    /// the box: on which side of the plane through three points a fourth one lies is linear in it. What is to the left
-    /// of all edges that a piece has without its turning faces, and at least one of them, lies in what these leave.
-    void cut_by_border(const SeenEdge& edge, const SeenEdge& border, EdgePart<T>& some, EdgePart<T>& all) const {
-        const CoefficientRange& c = border.coefficient;
-        if (c.steady == 0) return;
-        const T sign = c.steady > 0 ? T(1) : T(-1);
-        const Box3<T>& box = view_.tile().box;
-        const Vec3<T> half = (box.max - box.min) * T(0.5), along = border.b - border.a;
-        const Vec3<T> way = view_.tile().center - border.a;
-        constexpr T rounding = T(16) * std::numeric_limits<T>::epsilon();
-        const T least = rounding * glm::length(along) * glm::length(way);
-        const Vec3<T> normal_a = glm::cross(along, edge.a - border.a), normal_b = glm::cross(along, edge.b - border.a);
-        const T room_a = glm::dot(magnitudes(normal_a), half) + least,
-                room_b = glm::dot(magnitudes(normal_b), half) + least;
-        const T inside_a = sign * glm::dot(normal_a, way), inside_b = sign * glm::dot(normal_b, way);
-        keep_positive(edge, inside_a - room_a, inside_b - room_b, all);
-        if (c.least == c.most) keep_positive(edge, inside_a + room_a, inside_b + room_b, some);
-    }
-    /// Limits a part of an edge to where what is linear along it in space is positive, as the middle sees it land.
-    void keep_positive(const SeenEdge& edge, T at_a, T at_b, EdgePart<T>& part) const {
-        if (at_a >= T(0) && at_b >= T(0)) return;
-        if (at_a <= T(0) && at_b <= T(0)) {
-            part.last = part.first;
-            return;
-        }
-        const T landed = view_.landed(edge.a, edge.b, at_a / (at_a - at_b));
-        if (at_a > T(0))
-            part.last = std::min(part.last, landed);
-        else
-            part.first = std::max(part.first, landed);
-    }
-
-    Share share_of(const SeenEdge& edge) const {
+    Share share_of(const SeenEdge<T>& edge) const {
         const auto between = [](T low, T high) -> Share { return {(low + high) * T(0.5), (high - low) * T(0.5)}; };
         T low = static_cast<T>(edge.coefficient.least), high = static_cast<T>(edge.coefficient.most);
         const bool is_told = edge.piece < most_pieces;
-        if (is_told && is_sum(pieces_seen_[edge.piece])) {
+        if (is_told && is_sum(pieces_seen_[edge.piece], overlap_)) {
             const T rest = T(1) - edge.covered;
             if (pieces_seen_[edge.piece].is_steady) low = high = static_cast<T>(edge.coefficient.steady);
             return between(low > T(0) ? low * edge.sure : low * rest, high < T(0) ? high * edge.sure : high * rest);
@@ -304,20 +189,14 @@ class SweptArea {
                (std::sqrt(slope.x * slope.x + slope.y * slope.y) * view_.across() + std::abs(slope.z) * view_.deep());
     }
 
-    static bool is_apart(const Rect2<T>& a, const Rect2<T>& b) {
-        const Rect2<T> both = intersect(a, b);
-        return !(both.min.x < both.max.x && both.min.y < both.max.y);
-    }
-
     const LightView<T>& view_;
     T most_;
     OverlapChange overlap_;
     bool from_point_;
     T doubt_ = T(0), bending_ = T(0);  ///< of edges so far
     std::size_t pieces_ = 0, edges_ = 0, candidates_ = 0;
-    std::array<SeenPiece, most_pieces> pieces_seen_;
-    std::array<SeenEdge, most_edges> seen_;
-    std::array<T, most_edges> middles_;  ///< of edges, one coordinate: where they differ, so do the edges
+    std::array<SeenPiece<T>, most_pieces> pieces_seen_;
+    std::array<SeenEdge<T>, most_edges> seen_;
 };
 
 /// Points of a box, brought to an index's units when they are needed.

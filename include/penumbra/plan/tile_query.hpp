@@ -92,12 +92,10 @@ class TileQuery {
             if (together) split(t, many, count);
             t += many;
         }
-        std::array<Vec3<T>, most> asked;
-        std::array<T, most> answered;
-        for (std::size_t q = 0; q < queries_; ++q) asked[q] = points[queried_[q]];
-        shadow_.visibility(asked.data(), queries_, answered.data());
+        for (std::size_t q = 0; q < queries_; ++q) asked_[q] = points[queried_[q]];
+        shadow_.visibility(asked_.data(), queries_, answered_.data());
         for (std::size_t i = 0; i < count; ++i)
-            if (answered_by_[i] != none) result[i] = saturate(answered[answered_by_[i]] + steps_[i]);
+            if (answered_by_[i] != none) result[i] = saturate(answered_[answered_by_[i]] + steps_[i]);
         return queries_;
     }
 
@@ -337,6 +335,8 @@ class TileQuery {
     std::array<T, parts * tile> x_{}, y_{}, z_{}, away_{}, step_{};  ///< of points that share answers
     std::array<int, parts * tile> cell_{};
     std::array<std::uint16_t, most> asked_at_, answered_by_, queried_;  ///< of each point; of each query
+    std::array<Vec3<T>, most> asked_{};
+    std::array<T, most> answered_{};
     std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
     Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
