@@ -46,7 +46,9 @@
 #include <penumbra/penumbra_wedge/tile_sums.hpp>
 #include <penumbra/penumbra_wedge/union_blending.hpp>
 #include <penumbra/penumbra_wedge/wedge.hpp>
+#include <penumbra/penumbra_wedge/wedge_candidates.hpp>
 #include <penumbra/penumbra_wedge/wedge_index.hpp>
+#include <penumbra/penumbra_wedge/wedge_sight.hpp>
 #include <penumbra/penumbra_wedge/wedge_texels.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <penumbra/plan.hpp>

@@ -12,7 +12,7 @@
 #include <penumbra/geometry.hpp>
 #include <penumbra/numeric.hpp>
 #include <penumbra/penumbra_wedge/edge_sweep.hpp>
-#include <penumbra/penumbra_wedge/wedge_index.hpp>
+#include <penumbra/penumbra_wedge/wedge_candidates.hpp>
 
 namespace penumbra::detail {
 

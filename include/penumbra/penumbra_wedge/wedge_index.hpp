@@ -10,25 +10,18 @@
 // left out of the chain, which then has its border where they were, and are cut one by one.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <penumbra/geometry.hpp>
 #include <penumbra/penumbra_wedge/clip.hpp>
-#include <penumbra/penumbra_wedge/lit_side.hpp>
 #include <penumbra/penumbra_wedge/point_tile.hpp>
+#include <penumbra/penumbra_wedge/wedge_candidates.hpp>
+#include <penumbra/penumbra_wedge/wedge_sight.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 #include <vector>
 
 namespace penumbra {
-
-/// How often a face or an edge counts for points of a box: at least, at most, and without the faces that they do not
-/// all see alike.
-struct CoefficientRange {
-    int least, most, steady;
-};
 
 /// Built once; queried from any number of threads, without allocation.
 template <class T>
@@ -58,6 +51,7 @@ class WedgeIndex {
     /// few of the tile's points see otherwise than the rest: a mesh so fine asks for smaller tiles.
     template <class Visitor>
     bool visit(const PointTile<T>& tile, Visitor& visitor, bool may_give_up = false) const {
+        const detail::WedgeSight<T> sight = this->sight();
         Work work;
         const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
         std::uint32_t mesh_end = 0, piece_end = 0;  // of those that are open, else 0
@@ -69,7 +63,7 @@ class WedgeIndex {
             leave(at);
             const Node& node = tree_.nodes[at];
             const bool is_part = node.in_piece && !node.piece_root;
-            if (misses(tile, node.box, is_part) || (node.in_piece && has_no_silhouette(tile, node))) {
+            if (sight.misses(tile, node.box, is_part) || (node.in_piece && sight.has_no_silhouette(tile, node))) {
                 at = node.skip;
                 continue;
             }
@@ -88,31 +82,11 @@ class WedgeIndex {
     /// silhouette from any of them, with the CoefficientRange of its coefficient; before them turn(a, b, c, distance)
     /// for faces that may look at some points from one side and at some from the other, none of which is farther from
     /// the face's plane. Stops where the visitor answers false, and at a face that the points may lie on both sides of.
-    /// Returns whether it did not. `points`, if not empty, are those of the box that matter: size() and [i], in light
-    /// space.
+    /// Returns whether it did not. `points`, if not empty, are those of the box that matter: size(), at most capacity,
+    /// and [i], in light space; convex solids on whose lit side they are stand aside.
     template <class Visitor, class Points>
     bool visit_candidates(const PointTile<T>& tile, const Points& points, Visitor& visitor) const {
-        const auto end = static_cast<std::uint32_t>(tree_.nodes.size());
-        for (std::uint32_t at = 0; at < end;) {
-            const Node& node = tree_.nodes[at];
-            const bool is_part = node.in_piece && !node.piece_root;
-            if (misses(tile, node.box, is_part)) {
-                at = node.skip;
-                continue;
-            }
-            if (node.piece_root && stands_aside(tile, points, at)) {
-                at = node.skip;
-                continue;
-            }
-            if (node.piece_root && !visitor.begin_piece(node.box, node.simple, node.solid)) return false;
-            if (node.in_piece && has_no_silhouette(tile, node)) {
-                at = node.skip;
-                continue;
-            }
-            if (node.edge_count > 0 && !visit_candidates_of(tile, points, node, visitor)) return false;
-            ++at;
-        }
-        return true;
+        return detail::WedgeCandidates<T, Points, Visitor>(sight(), tile, points, visitor).visit();
     }
 
   private:
@@ -135,58 +109,6 @@ class WedgeIndex {
         std::array<T, most> value;
         std::array<Values, most> lanes;
     };
-
-    /// Whether nothing in a box can be in a pyramid; for a part of a piece, nor above one.
-    static bool misses(const PointTile<T>& tile, const Box3<T>& box, bool is_part) {
-        const T near = box.min.z, far = std::min(box.max.z, tile.box.max.z);
-        if (near >= tile.box.max.z) return true;
-        const Vec2<T> half = tile.light.max;
-        return box.min.x - half.x > std::max(tile.right * near, tile.right * far) ||
-               box.max.x + half.x < std::min(tile.left * near, tile.left * far) ||
-               box.max.y + half.y < std::min(tile.bottom * near, tile.bottom * far) ||
-               (!is_part && box.min.y - half.y > std::max(tile.top * near, tile.top * far));
-    }
-
-    /// How far the signed distances of a tile's points from planes may be from those of its centre, rounding included;
-    /// `normal` bounds the components of the planes' unit normals, `way` those from the planes to the centre.
-    static T spread(const PointTile<T>& tile, const Vec3<T>& normal, const Vec3<T>& way) {
-        const Vec3<T> half = (tile.box.max - tile.box.min) * T(0.5);
-        return std::min(tile.radius, glm::dot(normal, half)) +
-               T(4) * std::numeric_limits<T>::epsilon() * glm::dot(normal, way + half);
-    }
-    /// Whether a piece is a convex solid and the points are on its lit side.
-    template <class Points>
-    bool stands_aside(const PointTile<T>& tile, const Points& points, std::uint32_t piece) const {
-        const Node& node = tree_.nodes[piece];
-        return from_ == SilhouetteFrom::point && node.simple && node.solid && touches(tile, node.box) &&
-               detail::hides_nothing(tree_, piece, tile.box, points, tile.light, tolerance_);
-    }
-    bool touches(const PointTile<T>& tile, const Box3<T>& box) const {
-        return detail::touch({tile.box.min - tolerance_ * T(2), tile.box.max + tolerance_ * T(2)}, box);
-    }
-
-    bool has_no_silhouette(const PointTile<T>& tile, const Node& node) const {
-        int least = node.least, most = node.most;
-        if (from_ == SilhouetteFrom::light_center) {
-            if (least != most || (least != 0 && touches(tile, node.box))) return false;
-        } else {
-            const Vec3<T> middle = (node.box.min + node.box.max) * T(0.5), way = tile.center - middle;
-            const Vec3<T> a = way * node.normal_min, b = way * node.normal_max;
-            const Vec3<T> low = glm::min(a, b), high = glm::max(a, b);
-            const T room =
-                spread(tile, glm::max(detail::magnitudes(node.normal_min), detail::magnitudes(node.normal_max)),
-                       detail::magnitudes(way) + (node.box.max - middle));
-            const T nearest = low.x + low.y + low.z + node.offset_min - room;
-            const T farthest = high.x + high.y + high.z + node.offset_max + room;
-            const bool away = farthest<-tolerance_, not_away = nearest> - tolerance_;
-            const bool front = nearest > tolerance_, edge_on = not_away && farthest < tolerance_;
-            if (!away && !(node.solid ? not_away : front || edge_on)) return false;
-            const int coefficient = away ? -1 : front && !node.solid ? 1 : 0;
-            least = std::min(least, coefficient), most = std::max(most, coefficient);
-        }
-        const bool none_reaches_beyond = node.box.max.z < tile.box.min.z;
-        return least == most && (none_reaches_beyond || least == 0);
-    }
 
     template <class Visitor>
     void visit_leaf(const PointTile<T>& tile, const Node& node, Visitor& visitor, Work& work) const {
@@ -212,27 +134,18 @@ class WedgeIndex {
         }
     }
 
-    /// How often a face counts for points that see it from one side, or else edge-on.
-    int count_of(const Face& face, bool away, bool front) const {
-        if (from_ == SilhouetteFrom::light_center) return away || front ? face.from_light : 0;
-        return away ? -1 : front && !face.solid ? 1 : 0;
-    }
-    /// From a face's plane: how often it counts for a point at this signed distance from it.
-    T coefficient_of(const Face& face, T distance) const {
-        const bool away = distance < -tolerance_;
-        return static_cast<T>(count_of(face, away, distance > tolerance_));
-    }
-
     void find_coefficients(const PointTile<T>& tile, const Face& face, Coefficients& c, std::size_t f) const {
         const bool from_light = from_ == SilhouetteFrom::light_center;
         const T middle = glm::dot(face.normal, tile.center - face.a);
-        const T room = spread(tile, detail::magnitudes(face.normal), detail::magnitudes(tile.center - face.a));
+        const T room = sight().spread(tile, detail::magnitudes(face.normal), detail::magnitudes(tile.center - face.a));
         const bool away_all = middle + room < -tolerance_;
         const bool front_all = middle - room > (face.solid ? -tolerance_ : tolerance_);
-        const bool one_side = from_light ? !touches(tile, detail::box_of(face)) : away_all || front_all;
+        const bool one_side = from_light ? !sight().touches(tile, detail::box_of(face)) : away_all || front_all;
         const bool before_all = face.depth_max < tile.box.min.z, before_none = face.depth_max >= tile.box.max.z;
         c.uniform[f] = before_none || (before_all && one_side);
-        c.value[f] = before_none ? T(0) : from_light ? static_cast<T>(face.from_light) : coefficient_of(face, middle);
+        c.value[f] = before_none  ? T(0)
+                     : from_light ? static_cast<T>(face.from_light)
+                                  : sight().coefficient_of(face, middle);
         if (c.uniform[f]) return;
         Values& lanes = c.lanes[f];
         const T fixed = static_cast<T>(face.from_light), front_value = face.solid ? T(0) : T(1);
@@ -245,67 +158,6 @@ class WedgeIndex {
             lanes[i] = face.depth_max < tile.depth[i] ? value : T(0);
         }
     }
-    template <class Visitor, class Points>
-    bool visit_candidates_of(const PointTile<T>& tile, const Points& points, const Node& node, Visitor& visitor) const {
-        using Range = CoefficientRange;
-        std::array<Range, Coefficients::most> ranges;
-        ranges[0] = {0, 0, 0}, ranges[1] = {-1, -1, -1};
-        for (std::size_t f = 0; f < node.face_count; ++f) {
-            const Face& face = tree_.faces[node.first_face + f];
-            Range& range = ranges[f + 2];
-            range = {0, 0, 0};
-            if (face.depth_min >= tile.box.max.z) continue;  // beyond all points
-            const T middle = glm::dot(face.normal, tile.center - face.a);
-            const T room = spread(tile, detail::magnitudes(face.normal), detail::magnitudes(tile.center - face.a));
-            const bool away_all = middle + room<-tolerance_, away_none = middle - room> - tolerance_;
-            const bool front_all = middle - room > tolerance_;
-            if (away_all || (face.solid ? away_none : front_all)) {
-                range = range_of(face, away_all, front_all);
-            } else if (!find_range(face, points, range)) {
-                if (detail::touch(tile.box, detail::box_of(face))) return false;
-                const int fixed = face.from_light;
-                if (from_ == SilhouetteFrom::point)
-                    range = {face.solid || !away_none ? -1 : 0, face.solid ? 0 : 1, 0};
-                else if (touches(tile, detail::box_of(face)))
-                    range = {std::min(fixed, 0), std::max(fixed, 0), 0};
-                else
-                    range = {fixed, fixed, fixed};
-                if (f < node.owned_faces && range.least != range.most)
-                    visitor.turn(face.a, face.b, face.c, std::abs(middle) + room);
-            }
-        }
-        for (std::size_t e = 0; e < node.edge_count; ++e) {
-            const detail::WedgeEdge<T>& edge = tree_.edges[node.first_edge + e];
-            const Range left = ranges[edge.left], right = ranges[edge.right];
-            const Range range = {left.least - right.most, left.most - right.least, left.steady - right.steady};
-            if ((range.least != 0 || range.most != 0) && !visitor.edge(edge.a, edge.b, range)) return false;
-        }
-        return true;
-    }
-    /// How a face counts that all points look at from one side, or edge-on.
-    CoefficientRange range_of(const Face& face, bool away, bool front) const {
-        const int count = count_of(face, away, front);
-        return {count, count, count};
-    }
-    /// Whether each of the points looks at a face from the same side, by more than rounding, and how it counts then.
-    template <class Points>
-    bool find_range(const Face& face, const Points& points, CoefficientRange& range) const {
-        const T most = tolerance_ * T(1.0625), least = tolerance_ * T(0.9375);
-        const bool is_solid = face.solid && from_ == SilhouetteFrom::point;
-        bool away = true, front = true, not_away = true, edge_on = true;
-        const auto include = [&](const Vec3<T>& point) {
-            const T distance = glm::dot(face.normal, point - face.a);
-            away = away && distance < -most, front = front && distance > most;
-            not_away = not_away && distance > -least, edge_on = edge_on && std::abs(distance) < least;
-            return away || front || edge_on || (is_solid && not_away);
-        };
-        if (points.size() == 0 || !include(points[0]) || !include(points[points.size() - 1])) return false;
-        for (std::size_t i = 1; i + 1 < points.size(); ++i)
-            if (!include(points[i])) return false;
-        range = range_of(face, away, front);
-        return true;
-    }
-
     /// Fills in how often an edge counts. In how many lanes it does.
     static std::size_t count_lanes(const PointTile<T>& tile, const Coefficients& c, std::size_t left, std::size_t right,
                                    Values& coefficient) {
@@ -343,13 +195,13 @@ class WedgeIndex {
     template <class Visitor>
     std::size_t cut_face(const PointTile<T>& tile, const Face& face, Visitor& visitor) const {
         const Vec3<T> loop[3] = {face.a, face.b, face.c};
-        const bool one_side = from_ == SilhouetteFrom::light_center && !touches(tile, detail::box_of(face));
+        const bool one_side = from_ == SilhouetteFrom::light_center && !sight().touches(tile, detail::box_of(face));
         std::size_t used = 0;
         for (std::size_t i = 0; i < tile.count; ++i) {
             const Vec3<T> point = tile[i];
             if (!(face.depth_max >= point.z && face.depth_min < point.z)) continue;
             const T value = one_side ? static_cast<T>(face.from_light)
-                                     : coefficient_of(face, glm::dot(face.normal, point - face.a));
+                                     : sight().coefficient_of(face, glm::dot(face.normal, point - face.a));
             if (value == T(0) || is_beside(loop, point, tile.light.max)) continue;
             ++used;
             project_loop(loop, 3, point, tile.light,
@@ -368,6 +220,8 @@ class WedgeIndex {
         }
         return right == 3 || left == 3 || top == 3 || bottom == 3;
     }
+
+    detail::WedgeSight<T> sight() const { return {tree_, from_, tolerance_}; }
 
     detail::WedgeTree<T> tree_;
     SilhouetteFrom from_ = SilhouetteFrom::point;
