@@ -66,6 +66,7 @@
 #include <penumbra/plan/planner.hpp>
 #include <penumbra/plan/scene_extents.hpp>
 #include <penumbra/plan/selection.hpp>
+#include <penumbra/plan/shared_cells.hpp>
 #include <penumbra/plan/slice_candidates.hpp>
 #include <penumbra/plan/tile_box.hpp>
 #include <penumbra/plan/tile_query.hpp>

@@ -15,6 +15,7 @@
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
 #include <penumbra/numeric.hpp>
+#include <penumbra/plan/shared_cells.hpp>
 #include <penumbra/plan/tile_box.hpp>
 #include <utility>
 
@@ -56,14 +57,12 @@ class TileQuery {
     }
 
   private:
-    static constexpr std::size_t most = 1024, tile = 64, parts = 4;
+    static constexpr std::size_t most = 1024, tile = 64, parts = SharedCells<T>::capacity / tile;
     static constexpr std::size_t fewest = 4;  ///< that are answered together
     /// In which points share answers, in efforts; where it takes more, parts of them are tried.
     static constexpr std::size_t most_cells_of_tiles = 20, most_cells_of_tile = 32;
-    static constexpr int most_gaps = 3;    ///< at which a part of a tile is split
-    static constexpr int most_cells = 16;  ///< along an axis, in which points share answers
+    static constexpr int most_gaps = 3;  ///< at which a part of a tile is split
     static constexpr std::uint16_t none = 0xffff;
-    static constexpr T smallest = T(1e-30);    ///< what extents are taken for that are none
     static constexpr T worth_sharing = T(12);  ///< in tolerances, from a box's middle to its corners
 
     void ask_all(const Vec3<T>* points, std::size_t count, T* result, PointAnswer* answers) const {
@@ -139,7 +138,7 @@ class TileQuery {
         for (std::size_t i = 0; i < group.count; ++i) assign(group.place(i), query(group.place(i)), T(0));
     }
     /// False if not known well enough for that many cells to do.
-    bool answer_together(const Group& group, const Box3<T>& box, std::size_t most_cells_used) {
+    bool answer_together(const Group& group, const Box3<T>& box, std::size_t most_used) {
         const Box3<T> box_ls = seen_from(frame_, box);
         Variation<T> variation;
         const T most_known = group.count >= 2 * effort_ ? worth_sharing * tolerance_ : T(0);
@@ -155,7 +154,7 @@ class TileQuery {
             share_answer(group, group.count / 2);
             return true;
         }
-        return tolerance_ > T(0) && share_answers(group, variation, most_cells_used);
+        return tolerance_ > T(0) && share_answers(group, variation, most_used);
     }
     void see_all(const Group& group) {
         if (!group.places) {
@@ -203,93 +202,12 @@ class TileQuery {
         return variation.change(Vec3<T>(size.x * d.x + size.y * d.y, size.x * d.y + size.y * d.x, size.z));
     }
 
-    /// Puts the points into cells in which visibility changes by no more than the tolerance from the middle to a side,
-    /// and asks for the one nearest to the middle; others answer with it if they may.
-    bool share_answers(const Group& group, const Variation<T>& variation, std::size_t most_cells_used) {
-        const std::size_t count = group.count;
-        const Vec2<T> d = variation.direction;
-        const Vec3<T> along = frame_.u * d.x + frame_.v * d.y, across = frame_.v * d.x - frame_.u * d.y;
-        std::array<T, parts*tile>&x = x_, &y = y_, &z = z_, &away = away_, &step = step_;
-        std::array<int, parts* tile>& cell = cell_;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3<T> from = group.points[i] - frame_.origin;
-            x[i] = from.x * along.x + from.y * along.y + from.z * along.z;
-            y[i] = from.x * across.x + from.y * across.y + from.z * across.z;
-            z[i] = from.x * frame_.normal.x + from.y * frame_.normal.y + from.z * frame_.normal.z;
-        }
-        const Vec2<T> in_x = range(x, count), in_y = range(y, count), in_z = range(z, count);
-        const T left = std::max(tolerance_ - variation.turning - variation.deep * (in_z.y - in_z.x) * T(0.5),
-                                T(1e-3) * tolerance_);
-        const Cells cells =
-            fewest_cells(variation.along * (in_x.y - in_x.x), variation.across * (in_y.y - in_y.x), left);
-        const int columns = cells.columns, rows = cells.rows;
-        if (static_cast<std::size_t>(columns * rows) > most_cells_used) return false;
-        const T width = std::max(in_x.y - in_x.x, smallest) / static_cast<T>(columns);
-        const T height = std::max(in_y.y - in_y.x, smallest) / static_cast<T>(rows);
-        const T per_width = T(1) / width, per_height = T(1) / height, middle_z = (in_z.x + in_z.y) * T(0.5);
-        for (std::size_t i = 0; i < count; ++i) {
-            const int column = std::min(static_cast<int>((x[i] - in_x.x) * per_width), columns - 1);
-            const int row = std::min(static_cast<int>((y[i] - in_y.x) * per_height), rows - 1);
-            cell[i] = row * columns + column;
-            const T from_x = x[i] - (in_x.x + width * (static_cast<T>(column) + T(0.5)));
-            const T from_y = y[i] - (in_y.x + height * (static_cast<T>(row) + T(0.5)));
-            away[i] = variation.change(Vec3<T>(from_x, from_y, z[i] - middle_z));
-        }
-        std::array<std::uint16_t, most_cells * most_cells> chosen;
-        std::array<T, most_cells * most_cells> nearest;
-        std::fill_n(chosen.begin(), columns * rows, std::uint16_t(0));
-        std::fill_n(nearest.begin(), columns * rows, std::numeric_limits<T>::max());
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto c = static_cast<std::size_t>(cell[i]);
-            const bool is_nearer = away[i] < nearest[c];
-            nearest[c] = is_nearer ? away[i] : nearest[c];
-            chosen[c] = is_nearer ? static_cast<std::uint16_t>(i) : chosen[c];
-        }
-        const Vec3<T> slope = variation.turned(variation.slope);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t with = chosen[static_cast<std::size_t>(cell[i])];
-            const Vec3<T> way(x[i] - x[with], y[i] - y[with], z[i] - z[with]);
-            away[i] = variation.change(way);
-            step[i] = slope.x * way.x + slope.y * way.y + slope.z * way.z;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t point = group.place(i), by = group.place(chosen[static_cast<std::size_t>(cell[i])]);
-            const bool may = away[i] <= tolerance_;
-            assign(point, query(may ? by : point), may ? step[i] : T(0));
-        }
+    /// Asks for one point of each cell of them; false if that takes more cells.
+    bool share_answers(const Group& group, const Variation<T>& variation, std::size_t most_used) {
+        if (!cells_.divide(frame_, group.points, group.count, variation, tolerance_, most_used)) return false;
+        for (std::size_t i = 0; i < group.count; ++i)
+            assign(group.place(i), query(group.place(cells_.asked_for(i))), cells_.step(i));
         return true;
-    }
-    /// From least to greatest, eight at a time, so that it vectorises.
-    static Vec2<T> range(const std::array<T, parts * tile>& values, std::size_t count) {
-        constexpr std::size_t lanes = 8;
-        std::array<T, lanes> low, high;
-        low.fill(values[0]), high.fill(values[0]);
-        std::size_t i = 0;
-        for (; i + lanes <= count; i += lanes) {
-            for (std::size_t j = 0; j < lanes; ++j) {
-                low[j] = values[i + j] < low[j] ? values[i + j] : low[j];
-                high[j] = values[i + j] > high[j] ? values[i + j] : high[j];
-            }
-        }
-        for (; i < count; ++i) low[0] = std::min(low[0], values[i]), high[0] = std::max(high[0], values[i]);
-        return Vec2<T>(*std::min_element(low.begin(), low.end()), *std::max_element(high.begin(), high.end()));
-    }
-
-    struct Cells {
-        int columns, rows;
-    };
-    /// Cells from whose middles to corners no more than `doubtful` is in doubt, of what is from side to side.
-    static Cells fewest_cells(T along, T across, T doubtful) {
-        Cells best = {most_cells, most_cells};
-        for (int rows = 1; rows <= most_cells && rows < best.columns * best.rows; ++rows) {
-            const T rest = T(2) * doubtful - across / static_cast<T>(rows);
-            if (!(rest > T(0))) continue;
-            const T columns = along / rest;
-            if (!(columns < static_cast<T>(most_cells))) continue;
-            const Cells cells = {static_cast<int>(columns) + 1, rows};
-            if (cells.columns * cells.rows < best.columns * best.rows) best = cells;
-        }
-        return best;
     }
     /// Has all points answered by the query of one.
     void share_answer(const Group& group, std::size_t by) {
@@ -332,8 +250,7 @@ class TileQuery {
     T* result_ = nullptr;
     PointAnswer* answers_ = nullptr;
     std::array<Box3<T>, most / tile> boxes_;
-    std::array<T, parts * tile> x_{}, y_{}, z_{}, away_{}, step_{};  ///< of points that share answers
-    std::array<int, parts * tile> cell_{};
+    SharedCells<T> cells_;
     std::array<std::uint16_t, most> asked_at_, answered_by_, queried_;  ///< of each point; of each query
     std::array<Vec3<T>, most> asked_{};
     std::array<T, most> answered_{};
