@@ -143,6 +143,12 @@ Box3<T> extend(const Box3<T>& b, const Vec3<T>& point) {
 
 namespace detail {
 
+/// How far a box reaches from the origin, axis by axis.
+template <class T>
+Vec3<T> farthest_of(const Box3<T>& b) {
+    return glm::max(magnitudes(b.min), magnitudes(b.max));
+}
+
 /// Around both.
 template <class T>
 Box3<T> join(const Box3<T>& a, const Box3<T>& b) {

@@ -97,12 +97,13 @@ TEST_CASE("a convex solid hides nothing from points on its lit side") {
             points.points.push_back(detail::to_scaled_light(shadow.frame(), p, shadow.scale()));
             box = extend(box, points.points.back());
         }
-        const Vec2<float> half = shadow.scaled_half_size();
         const detail::WedgeTree<float>& tree = shadow.index().tree();
         std::size_t piece = 0;
         while (!tree.nodes[piece].piece_root) ++piece;
-        const bool hides_nothing =
-            detail::hides_nothing(tree, piece, box, points, Rect2<float>{-half, half}, shadow.index().tolerance());
+        PointTile<float> tile;
+        tile.cover(box, shadow.scaled_half_size());
+        const detail::WedgeSight<float> sight{tree, shadow.index().silhouette(), shadow.index().tolerance()};
+        const bool hides_nothing = detail::hides_nothing(sight, tile, points, piece);
         bool is_lit = true;
         float least = 1.0F;
         double inside = 0.0;
@@ -130,7 +131,7 @@ TEST_CASE("a face opens for points that are before it, or on it and not near its
     face.normal = Vec3<float>(0.0F, 0.0F, -1.0F);
     face.a = Vec3<float>(-1.0F, -1.0F, 2.0F), face.b = Vec3<float>(0.0F, 1.0F, 2.0F);
     face.c = Vec3<float>(1.0F, -1.0F, 2.0F);
-    const Rect2<float> light{Vec2<float>(-0.5F, -0.5F), Vec2<float>(0.5F, 0.5F)};
+    const Vec2<float> light(0.5F, 0.5F);
     const detail::LitFace<float> lit(face, light, 1e-3F);
     CHECK(lit.faces_light());
     CHECK(lit.opens(Vec3<float>(0.0F, 0.0F, 1.9F)));
@@ -146,6 +147,6 @@ TEST_CASE("a face opens for points that are before it, or on it and not near its
     edge_on.normal = Vec3<float>(1.0F, 0.0F, 0.0F);
     edge_on.a = face.a, edge_on.b = Vec3<float>(-1.0F, 1.0F, 2.0F), edge_on.c = Vec3<float>(-1.0F, 0.0F, 3.0F);
     CHECK(detail::LitFace<float>(edge_on, light, 1e-3F).faces_light());
-    const Rect2<float> wide{Vec2<float>(-1.5F, -0.5F), Vec2<float>(1.5F, 0.5F)};  // some of which is behind the plane
+    const Vec2<float> wide(1.5F, 0.5F);  // some of which is behind the plane
     CHECK(!detail::LitFace<float>(edge_on, wide, 1e-3F).faces_light());
 }

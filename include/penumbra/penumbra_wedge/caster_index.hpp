@@ -27,14 +27,14 @@ class CasterIndex {
     CasterIndex(const std::vector<Mesh<T>>& casters, const Box3<T>& box, const LightFrame<T>& frame,
                 const Vec2<T>& size, SilhouetteFrom from)
         : frame_(frame) {
-        const Vec3<T> reach = glm::max(magnitudes(box.min - frame.origin), magnitudes(box.max - frame.origin));
+        const Vec3<T> reach = farthest_of<T>({box.min - frame.origin, box.max - frame.origin});
         const T radius = std::max({largest_component(reach), size.x, size.y});
         scale_ = exp2_int<T>(exponent_to_unit(radius));
         // a light too small for T is as small as T can tell apart
         constexpr T epsilon = std::numeric_limits<T>::epsilon();
         const T unit = radius * scale_, least = T(64) * epsilon * unit;
         half_size_ = glm::max(size * scale_, Vec2<T>(least, least));
-        const Vec3<T> far = glm::max(magnitudes(box.min), magnitudes(box.max));
+        const Vec3<T> far = farthest_of(box);
         const T tolerance = epsilon * (T(4) * unit + largest_component(far) * scale_);
         std::vector<LitMesh<T>> lit_meshes;
         lit_meshes.reserve(casters.size());

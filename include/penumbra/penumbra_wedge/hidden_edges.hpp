@@ -36,11 +36,12 @@ class EdgeCover {
     /// A measure of all of them together, within a part; of one, measure(part).
     template <class Measure>
     T sum(const EdgePart<T>& within, const Measure& measure) const {
-        T sum = T(0), covered_to = within.first;
+        T sum = T(0);
+        EdgePart<T> rest = within;
         for (std::size_t k = 0; k < count_; ++k) {
-            const EdgePart<T> part = {std::max(parts_[k].first, covered_to), std::min(parts_[k].last, within.last)};
+            const EdgePart<T> part = both(parts_[k], rest);
             if (!(part.first < part.last)) continue;
-            sum += measure(part), covered_to = part.last;
+            sum += measure(part), rest.first = part.last;
         }
         return sum;
     }
@@ -71,7 +72,6 @@ struct SeenEdge {
     EdgePart<T> inner;  ///< what all points have before the light
     T sure;             ///< the share of its slope that counts in any case
     Vec2<T> bending;    ///< by how much its slope may differ, across the axis and in depth
-    T hidden;           ///< the share that other pieces may hide
     T covered;          ///< the share that another piece surely hides
     T shift;            ///< how far it may be from where the middle sees it
     CoefficientRange coefficient;
@@ -157,8 +157,8 @@ class HiddenEdges {
         const T in_inner = hidden.sum(edge.inner, times), in_covered = covered.sum(whole, times);
         edge.bending *= std::max(T(1) - covered.sum(whole, in_space), T(0));
         edge.covered = saturated_ratio(in_covered, all);
-        edge.hidden = std::min(saturated_ratio(in_whole - in_covered, all), T(1) - edge.covered);
-        edge.sure = clamp(edge.sure - saturated_ratio(in_inner, all), T(0), T(1) - edge.hidden - edge.covered);
+        const T may_be_hidden = std::min(saturated_ratio(in_whole - in_covered, all), T(1) - edge.covered);
+        edge.sure = clamp(edge.sure - saturated_ratio(in_inner, all), T(0), T(1) - may_be_hidden - edge.covered);
     }
 
   private:

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <limits>
 #include <penumbra/geometry.hpp>
+#include <penumbra/penumbra_wedge/point_tile.hpp>
+#include <penumbra/penumbra_wedge/wedge_sight.hpp>
 #include <penumbra/penumbra_wedge/wedge_tree.hpp>
 
 namespace penumbra::detail {
@@ -20,13 +22,13 @@ namespace penumbra::detail {
 template <class T>
 class LitFace {
   public:
-    /// `light`: the rectangle at depth 0 around the light. `tolerance`: how far points may be from a plane they are on.
-    LitFace(const WedgeFace<T>& face, const Rect2<T>& light, T tolerance) : face_(face), tolerance_(tolerance) {
-        const Vec3<T> middle((light.min.x + light.max.x) * T(0.5), (light.min.y + light.max.y) * T(0.5), T(0));
-        half_ = Vec2<T>(light.max.x - light.min.x, light.max.y - light.min.y) * T(0.5);
-        above_ = glm::dot(face.normal, middle - face.a) - std::abs(face.normal.x) * half_.x -
-                 std::abs(face.normal.y) * half_.y - T(2) * tolerance;
-    }
+    /// `half_size`: of the rectangle around the light. `tolerance`: how far points may be from a plane they are on.
+    LitFace(const WedgeFace<T>& face, const Vec2<T>& half_size, T tolerance)
+        : face_(face),
+          tolerance_(tolerance),
+          above_(-glm::dot(face.normal, face.a) - std::abs(face.normal.x) * half_size.x -
+                 std::abs(face.normal.y) * half_size.y - T(2) * tolerance),
+          half_(half_size) {}
 
     /// Whether the whole light is before the plane.
     bool faces_light() const { return above_ > T(0); }
@@ -35,8 +37,8 @@ class LitFace {
         constexpr T rounding = T(8) * std::numeric_limits<T>::epsilon();
         const Vec3<T> way = point - face_.a;
         const T distance = glm::dot(face_.normal, way), off = rounding * (largest_component(way) + tolerance_);
-        if (distance > std::max(T(1.0625) * tolerance_, off)) return true;
-        if (distance < T(-0.9375) * tolerance_) return false;
+        if (distance > std::max(surely_off<T> * tolerance_, off)) return true;
+        if (distance < -surely_on<T> * tolerance_) return false;
         const T across = std::abs(point.x) + half_.x + std::abs(point.y) + half_.y;
         const T around = (std::max(-distance, T(0)) + off) * (across + point.z) / above_;
         return is_inside(way, face_.b - face_.a, face_.c - face_.a, around) &&
@@ -58,25 +60,23 @@ class LitFace {
 };
 
 /// Whether a piece, a convex solid that starts at that node, hides nothing from any of the points: size() and [i], at
-/// most Points::capacity of them, all in `box`. False also where that is not seen.
+/// most Points::capacity of them, all in the tile's box. False also where that is not seen.
 template <class T, class Points>
-bool hides_nothing(const WedgeTree<T>& tree, std::size_t piece, const Box3<T>& box, const Points& points,
-                   const Rect2<T>& light, T tolerance) {
+bool hides_nothing(const WedgeSight<T>& sight, const PointTile<T>& tile, const Points& points, std::size_t piece) {
     std::array<bool, Points::capacity> is_open;
     std::size_t left = points.size();
     std::fill_n(is_open.begin(), left, false);
-    const Box3<T> near = {box.min - tolerance * T(2), box.max + tolerance * T(2)};
-    const std::size_t end = left > 0 ? tree.nodes[piece].skip : piece;
+    const std::size_t end = left > 0 ? sight.tree.nodes[piece].skip : piece;
     for (std::size_t at = piece; at < end;) {
-        const WedgeNode<T>& node = tree.nodes[at];
-        if (!touch(near, node.box)) {
+        const WedgeNode<T>& node = sight.tree.nodes[at];
+        if (!sight.touches(tile, node.box)) {
             at = node.skip;
             continue;
         }
         for (std::size_t f = node.first_face; f < node.first_face + node.owned_faces; ++f) {
-            const WedgeFace<T>& face = tree.faces[f];
-            const LitFace<T> lit(face, light, tolerance);
-            if (!lit.faces_light() || !touch(near, box_of(face))) continue;
+            const WedgeFace<T>& face = sight.tree.faces[f];
+            const LitFace<T> lit(face, tile.light.max, sight.tolerance);
+            if (!lit.faces_light() || !sight.touches(tile, box_of(face))) continue;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 if (is_open[i] || !lit.opens(points[i])) continue;
                 is_open[i] = true;

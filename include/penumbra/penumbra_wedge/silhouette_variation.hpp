@@ -89,7 +89,7 @@ class SweptArea {
         seen.begin = begin, seen.end = end, seen.a = a, seen.b = b, seen.whole = view_.sweep(a, b), seen.shift = shift;
         seen.inner = view_.inner_part(a, b, seen.whole, shift);
         seen.sure = saturated_ratio(seen.whole.times(seen.inner), seen.whole.times());
-        seen.hidden = seen.covered = T(0);
+        seen.covered = T(0);
         seen.coefficient = coefficient;
         seen.piece = static_cast<std::uint16_t>(std::min(pieces_, most_pieces + 1) - 1);
         if (pieces_ <= most_pieces) pieces_seen_[pieces_ - 1].end = edges_;
@@ -174,14 +174,13 @@ class SweptArea {
         const auto between = [](T low, T high) -> Share { return {(low + high) * T(0.5), (high - low) * T(0.5)}; };
         T low = static_cast<T>(edge.coefficient.least), high = static_cast<T>(edge.coefficient.most);
         const bool is_told = edge.piece < most_pieces;
+        if (is_told && pieces_seen_[edge.piece].is_steady) low = high = static_cast<T>(edge.coefficient.steady);
         if (is_told && is_sum(pieces_seen_[edge.piece], overlap_)) {
             const T rest = T(1) - edge.covered;
-            if (pieces_seen_[edge.piece].is_steady) low = high = static_cast<T>(edge.coefficient.steady);
             return between(low > T(0) ? low * edge.sure : low * rest, high < T(0) ? high * edge.sure : high * rest);
         }
         if (overlap_ != OverlapChange::outline) return {T(0), std::max(std::abs(low), std::abs(high))};
         if (!from_point_ || !is_told || !pieces_seen_[edge.piece].is_wound_once) return {T(0), T(1)};
-        if (pieces_seen_[edge.piece].is_steady) low = high = static_cast<T>(edge.coefficient.steady);
         return between(std::max(std::min(low, T(0)), T(-1)), std::min(std::max(high, T(0)), T(1)));
     }
     T half_length(const Share& share, const Vec3<T>& slope) const {

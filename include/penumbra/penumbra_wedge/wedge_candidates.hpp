@@ -61,7 +61,7 @@ class WedgeCandidates {
     bool stands_aside(std::uint32_t piece) const {
         const Node& node = sight_.tree.nodes[piece];
         return sight_.from == SilhouetteFrom::point && node.simple && node.solid && sight_.touches(tile_, node.box) &&
-               hides_nothing(sight_.tree, piece, tile_.box, points_, tile_.light, sight_.tolerance);
+               hides_nothing(sight_, tile_, points_, piece);
     }
     bool visit_leaf(const Node& node) const {
         using Range = CoefficientRange;
@@ -106,7 +106,7 @@ class WedgeCandidates {
     }
     /// Whether each of the points looks at a face from the same side, by more than rounding, and how it counts then.
     bool find_range(const Face& face, CoefficientRange& range) const {
-        const T most = sight_.tolerance * T(1.0625), least = sight_.tolerance * T(0.9375);
+        const T most = sight_.tolerance * surely_off<T>, least = sight_.tolerance * surely_on<T>;
         const bool is_solid = face.solid && sight_.from == SilhouetteFrom::point;
         bool away = true, front = true, not_away = true, edge_on = true;
         const auto include = [&](const Vec3<T>& point) {

@@ -11,6 +11,12 @@
 
 namespace penumbra::detail {
 
+/// In tolerances: points farther from a plane surely are not on it, nearer ones surely are, however distances round.
+template <class T>
+constexpr T surely_off = T(1.0625);
+template <class T>
+constexpr T surely_on = T(0.9375);
+
 /// Refers to the tree. A face is on a point if its plane passes within `tolerance` of it.
 template <class T>
 struct WedgeSight {

@@ -39,7 +39,7 @@ bool covers_once(const Mesh<T>& mesh) {
         for (const Vec3<T>& p : mesh.positions) {
             const T away = glm::dot(normal, p - a);
             low = std::min(low, away), high = std::max(high, away);
-            size = std::max(size, largest_component(magnitudes(p)));
+            size = std::max(size, largest_component(p));
         }
         const T slack = T(16) * std::numeric_limits<T>::epsilon() * size;
         outwards = outwards && high <= slack, inwards = inwards && low >= -slack;

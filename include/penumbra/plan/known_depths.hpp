@@ -129,7 +129,7 @@ struct KnownPlaces {
     /// Whether a box lies before the light, and at slopes that can be told apart.
     bool is_before(const Box3<T>& box) const {
         constexpr T steepest = T(1e6);
-        const Vec3<T> out = glm::max(magnitudes(box.min), magnitudes(box.max));
+        const Vec3<T> out = farthest_of(box);
         const T half_length = std::max(std::abs(maps.front().position), std::abs(maps.back().position));
         return box.min.z > T(0) && out.x + out.y + half_length < steepest * box.min.z;
     }
@@ -147,7 +147,7 @@ struct KnownPlaces {
     /// From the light's centre to the nearest and the farthest point of a box.
     static Vec2<T> distances(const Box3<T>& box) {
         const Vec3<T> zero(T(0), T(0), T(0));
-        const Vec3<T> far = glm::max(magnitudes(box.min), magnitudes(box.max));
+        const Vec3<T> far = farthest_of(box);
         const Vec3<T> near = glm::max(zero, glm::max(box.min, -box.max));
         constexpr T slack = T(8) * std::numeric_limits<T>::epsilon();
         return Vec2<T>(safe_length(near) * (T(1) - slack), safe_length(far) * (T(1) + slack));

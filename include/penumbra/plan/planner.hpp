@@ -163,8 +163,8 @@ class Planner {
             const Box3<T> box = checked_bounds(casters_[i]);
             if (is_empty(box)) continue;
             const Vec3<T>& light = extents_.frame.origin;
-            const T reach = largest_component(glm::max(magnitudes(box.min - light), magnitudes(box.max - light)));
-            const T far = largest_component(glm::max(magnitudes(box.min), magnitudes(box.max)));
+            const T reach = largest_component(farthest_of<T>({box.min - light, box.max - light}));
+            const T far = largest_component(farthest_of(box));
             const auto is_farther = [&](T distance, T before, std::size_t other) {  // of equals, what hides more
                 return distance > before || (distance >= before && extents_.hidden[i] > extents_.hidden[other]);
             };

@@ -133,8 +133,7 @@ Box3<T> seen_box(const Mesh<T>& mesh, const LightFrame<T>& frame) {
     }
     Box3<T> box{Vec3<T>(low[0], low[1], low[2]), Vec3<T>(high[0], high[1], high[2])};
     if (is_empty(box)) return empty_box<T>();
-    const T reach = largest_component(glm::max(detail::magnitudes(box.min), detail::magnitudes(box.max))) +
-                    largest_component(detail::magnitudes(frame.origin));
+    const T reach = largest_component(detail::farthest_of(box)) + largest_component(frame.origin);
     const T margin = T(16) * std::numeric_limits<T>::epsilon() * reach;
     return {box.min - margin, box.max + margin};
 }
@@ -147,7 +146,7 @@ void widen_by_texels(std::vector<Box3<T>>& boxes, const Vec2<T>& half_size, int 
     for (const Box3<T>& box : boxes) {
         if (is_empty(box) || !(box.max.z > T(0))) continue;
         nearest = std::min(nearest, std::max(box.min.z, T(0))), farthest = std::max(farthest, box.max.z);
-        const Vec3<T> out = glm::max(detail::magnitudes(box.min), detail::magnitudes(box.max));
+        const Vec3<T> out = detail::farthest_of(box);
         reach = std::max({reach, out.x + half_size.x, out.y + half_size.y});
     }
     constexpr T most = T(1e3);

@@ -56,7 +56,7 @@ Box3<T> box_of(const Vec3<T>* points, std::size_t count) {
 template <class T>
 Box3<T> seen_from(const LightFrame<T>& frame, const Box3<T>& box) {
     const Vec3<T> middle = frame.to_light((box.min + box.max) * T(0.5)), half = (box.max - box.min) * T(0.5);
-    const Vec3<T> reach = glm::max(magnitudes(box.min), magnitudes(box.max)) + magnitudes(frame.origin);
+    const Vec3<T> reach = farthest_of(box) + magnitudes(frame.origin);
     const T margin = T(8) * std::numeric_limits<T>::epsilon() * (reach.x + reach.y + reach.z);
     const Vec3<T> out(glm::dot(magnitudes(frame.u), half) + margin, glm::dot(magnitudes(frame.v), half) + margin,
                       glm::dot(magnitudes(frame.normal), half) + margin);

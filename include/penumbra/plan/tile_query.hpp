@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <penumbra/detail/variation.hpp>
 #include <penumbra/geometry.hpp>
 #include <penumbra/light.hpp>
@@ -148,24 +147,18 @@ class TileQuery {
             see_all(group);
             return true;
         }
-        slope_ = frame_.u * variation.slope.x + frame_.v * variation.slope.y + frame_.normal * variation.slope.z;
-        const T in_doubt = doubt(variation, box_ls);
-        if (in_doubt <= tolerance_) {
-            share_answer(group, group.count / 2);
+        if (doubt(variation, box_ls) <= tolerance_) {
+            share_answer(group, group.count / 2, variation.slope);
             return true;
         }
         return tolerance_ > T(0) && share_answers(group, variation, most_used);
     }
     void see_all(const Group& group) {
-        if (!group.places) {
+        if (group.places)
+            for (std::size_t i = 0; i < group.count; ++i) result_[group.places[i]] = T(1);
+        else
             std::fill_n(result_ + group.first, group.count, T(1));
-            tell(group.first, group.count, PointAnswer::lit);
-            return;
-        }
-        for (std::size_t i = 0; i < group.count; ++i) {
-            result_[group.places[i]] = T(1);
-            tell(group.places[i], 1, PointAnswer::lit);
-        }
+        tell(group, PointAnswer::lit);
     }
     /// Points of a tile that see two surfaces, one before the other, are answered by surface. False if there is no gap.
     bool split_at_gap(const Group& group, const Box3<T>& box, int gaps) {
@@ -210,8 +203,9 @@ class TileQuery {
         return true;
     }
     /// Has all points answered by the query of one.
-    void share_answer(const Group& group, std::size_t by) {
-        const Vec3<T> from = group.points[by], slope = slope_;
+    void share_answer(const Group& group, std::size_t by, const Vec3<T>& slope_ls) {
+        const Vec3<T> from = group.points[by];
+        const Vec3<T> slope = frame_.u * slope_ls.x + frame_.v * slope_ls.y + frame_.normal * slope_ls.z;
         const std::uint16_t asked = query(group.place(by));
         if (group.places) {
             for (std::size_t i = 0; i < group.count; ++i)
@@ -221,8 +215,8 @@ class TileQuery {
             for (std::size_t i = 0; i < group.count; ++i) steps[i] = glm::dot(slope, group.points[i] - from);
             std::fill_n(&answered_by_[group.first], group.count, asked);
         }
-        for (std::size_t i = 0; i < group.count && answers_; ++i) tell(group.place(i), 1, PointAnswer::shared);
-        tell(group.place(by), 1, PointAnswer::own);
+        tell(group, PointAnswer::shared);
+        if (answers_) answers_[group.place(by)] = PointAnswer::own;
     }
     /// The query of a point: which of all it is.
     std::uint16_t query(std::size_t point) {
@@ -237,8 +231,9 @@ class TileQuery {
         answered_by_[point] = query, steps_[point] = step;
         if (answers_) answers_[point] = queried_[query] == point ? PointAnswer::own : PointAnswer::shared;
     }
-    void tell(std::size_t first, std::size_t count, PointAnswer how) {
-        if (answers_) std::fill_n(answers_ + first, count, how);
+    void tell(const Group& group, PointAnswer how) {
+        if (!answers_) return;
+        for (std::size_t i = 0; i < group.count; ++i) answers_[group.place(i)] = how;
     }
 
     const Shadow& shadow_;
@@ -255,7 +250,6 @@ class TileQuery {
     std::array<Vec3<T>, most> asked_{};
     std::array<T, most> answered_{};
     std::array<T, most> steps_;  ///< by how much a point's visibility differs from the answer
-    Vec3<T> slope_ = Vec3<T>(T(0), T(0), T(0));
     std::size_t queries_ = 0;
     std::size_t failures_ = 0, untried_ = 0;  ///< of blocks of tiles: more after each that had to be split
 };
